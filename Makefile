@@ -1,0 +1,56 @@
+# Polyshade. `make` sets up, renders the default head through the RTL and checks every pixel.
+# PYTHON=python3.12 chooses the interpreter, VERILATOR=/path an installed Verilator.
+
+BIN    := .venv/bin
+READY  := .venv/.stamp
+HEAD   := build/render/head
+PYTEST := $(BIN)/python -m pytest
+
+.DELETE_ON_ERROR:
+.PHONY: all help setup test test-one lint format bench units papers synth lock clean distclean
+
+all: $(HEAD)/report.json ## Set up, render the default head, check every pixel (the default)
+	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
+
+help: ## Print this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: $(READY) ## Make .venv with the pinned tools
+
+$(READY): requirements.txt pyproject.toml scripts/setup.sh
+	@scripts/setup.sh .venv
+
+$(HEAD)/report.json: $(READY) $(shell find rtl golden sim scripts -name '*.sv' -o -name '*.f' -o -name '*.py' -o -name '*.cpp')
+	$(BIN)/polyshade render --mesh head --size 1024 --out $(HEAD)
+
+test: $(READY) ## Run lint, golden, cocotb, NumPy-driven and command-line tests
+	@$(BIN)/python -m scripts.tools cocotb
+	$(PYTEST) -n auto --dist worksteal --junitxml build/test/report.xml
+
+test-one: $(READY) ## Run one test again: T='tb/...::test_x[...]' SEED=1 WAVES=1
+	@$(BIN)/python -m scripts.tools cocotb
+	$(PYTEST) -n 0 -v $(if $(findstring .py,$(T)),,-k) '$(T)'
+
+lint: $(READY) ## Check RTL and Python: Verilator, Yosys, rules of the house, ruff
+	$(BIN)/python -m scripts.lint
+
+format: $(READY) ## Format the Python code
+	$(BIN)/ruff format
+	$(BIN)/ruff check --fix
+
+bench units papers synth: $(READY)
+	$(BIN)/polyshade $@
+
+bench: ## Measure speed: simulator, golden model, alternatives; leaves build/bench.json
+units: ## Measure every unit: vectors, mismatches, worst error; leaves build/units.json
+papers: ## Check every claim of the papers; leaves build/papers.json
+synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.json
+
+lock: ## Write requirements.txt from requirements.in
+	scripts/lock.sh
+
+clean: ## Remove what was built
+	rm -rf build
+
+distclean: clean ## Remove the virtual environment as well
+	rm -rf .venv *.egg-info .pytest_cache .ruff_cache

@@ -26,7 +26,6 @@ from sim.errors import UserError
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
-FILE_LIST = ROOT / "rtl" / "shade.f"
 
 # cocotb 2.1 refuses an older Verilator; 6 may change what this project relies on.
 VERILATOR_FIRST, VERILATOR_PAST = (5, 36), (6, 0)

@@ -1,0 +1,191 @@
+"""Everything that can be wrong with the sources before anything is simulated: ``make lint``.
+
+* the file list names every file under ``rtl/`` once, the package first;
+* Verilator ``-Wall`` elaborates every module as its own top at every point of ``scripts.points``, without a
+  warning, and refuses the points that are out of range in words;
+* Yosys reads every module at every point with its own reader and with slang, finds no latch, no loop, no
+  undriven net and no multiplier or divider outside ``shade_mul``, and synthesizes it;
+* every module is named like its file, opens with a header that states formula and latency, has a row in
+  ``rtl/README.md`` with its golden twin, and a test bench;
+* the Python code passes ruff's rules and format.
+"""
+
+import importlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from tqdm import tqdm
+
+from scripts import tools
+from scripts.points import REFUSED, Point, label, points
+from scripts.sources import modules, sources
+
+RTL = tools.ROOT / "rtl"
+CATALOGUE = RTL / "README.md"
+
+
+@dataclass(frozen=True)
+class Item:
+    """One check: its name and a function that returns the faults it finds, one line each."""
+
+    name: str
+    check: Callable[[], list[str]]
+
+
+def items() -> Iterator[Item]:
+    """Every check of the repository, the short ones first."""
+    yield Item("file list", file_list)
+    yield Item("ruff check", partial(_ruff, "check", "--quiet", "--output-format=concise"))
+    yield Item("ruff format", partial(_ruff, "format", "--check", "--quiet", "--output-format=concise"))
+    for module, path in modules().items():
+        yield Item(f"mirror {module}", partial(mirror, module, path))
+    for module in modules():
+        for point in REFUSED.get(module, []):
+            yield Item(f"refused {label(module, point)}", partial(refused, module, point))
+        for point in points(module):
+            yield Item(f"verilator {label(module, point)}", partial(verilator, module, point))
+            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point))
+
+
+def file_list() -> list[str]:
+    """Faults of ``rtl/shade.f``: files missing, unlisted, listed twice, or a package that comes too late."""
+    listed = sources()
+    found = set(RTL.rglob("*.sv"))
+    faults = [f"{_short(path)}: listed, but missing" for path in listed if path not in found]
+    faults += [f"{_short(path)}: not listed" for path in sorted(found - set(listed))]
+    faults += [f"{_short(path)}: listed twice" for path in sorted(set(listed)) if listed.count(path) > 1]
+    if listed[0].name != "shade_pkg.sv":
+        faults.append(f"{_short(listed[0])}: first, but the package comes first")
+    return faults
+
+
+def mirror(module: str, path: Path) -> list[str]:
+    """Faults of a module's name, header, catalogue row, golden twin and bench."""
+    if not path.exists():
+        return []  # told by file_list
+    text = path.read_text()
+    faults = []
+    if re.findall(r"^\s*module\s+(\w+)", text, re.MULTILINE) != [module]:
+        faults.append(f"{_short(path)}: must hold the one module {module}")
+    header = "".join(line for line in text.splitlines(True)[: _header_lines(text)])
+    if not header.startswith(f"// {module}: "):
+        faults.append(f"{_short(path)}: must open with the comment '// {module}: <formula>'")
+    for word in ("Latency|Combinational", "Example"):
+        if not re.search(word, header, re.IGNORECASE):
+            faults.append(f"{_short(path)}: no '{word}' in its header")
+
+    bench = tools.ROOT / "tb" / path.parent.name / f"test_{module.removeprefix('shade_')}.py"
+    if not bench.exists():
+        faults.append(f"{_short(bench)}: missing, the bench of {module}")
+
+    rows = CATALOGUE.read_text().splitlines() if CATALOGUE.exists() else []
+    row = next((row for row in rows if row.startswith("|") and f"`{module}`" in row.split("|")[1]), "")
+    twins = re.findall(r"`(golden(?:\.\w+)+)`", row)
+    if not row:
+        faults.append(f"{_short(CATALOGUE)}: no row for {module}")
+    elif not twins:
+        faults.append(
+            f"{_short(CATALOGUE)}: the row of {module} names no golden twin, such as `golden.poly.horner`"
+        )
+    return faults + [f"{_short(CATALOGUE)}: {twin} does not exist" for twin in twins if not _resolves(twin)]
+
+
+def verilator(module: str, point: Point) -> list[str]:
+    """Warnings and errors of Verilator for one module as the top."""
+    done = _verilate(module, point)
+    return [line for line in done.stderr.splitlines() if line.startswith("%")] or ["failed"] * (
+        done.returncode != 0
+    )
+
+
+def refused(module: str, point: Point) -> list[str]:
+    """A fault unless elaboration ends with the module's own message."""
+    done = _verilate(module, point)
+    told = re.search(rf"^%Warning-USERERROR: .*: {module}: ", done.stderr, re.MULTILINE)
+    return [] if done.returncode and told else [f"{label(module, point)}: accepted, or refused without words"]
+
+
+def yosys(module: str, point: Point) -> list[str]:
+    """Faults that Yosys finds with either reader, or on the way to gates."""
+    folder = tools.BUILD / "lint" / re.sub(r"\W+", "_", label(module, point))
+    shutil.rmtree(folder, ignore_errors=True)
+    files = " ".join(os.path.relpath(path, folder) for path in sources())
+    chosen = "".join(f" -chparam {name} {value}" for name, value in point.items())
+    given = "".join(f" -G {name}={value}" for name, value in point.items())
+    rules = """
+        proc
+        check -assert
+        select -assert-none t:$dlatch t:$adlatch
+        select -assert-none t:$mul t:$div t:$divfloor t:$mod t:$modfloor t:$pow %u %u %u %u %u *shade_mul*/* %d
+    """
+    script = f"""
+        read_verilog -sv {files}
+        hierarchy -check -top {module}{chosen}
+        {rules}
+        synth -flatten
+        check -assert
+        design -reset
+        read_slang --keep-hierarchy --top {module}{given} {files}
+        {rules}
+    """
+    try:
+        log = tools.yosys(script, folder)
+    except RuntimeError as error:
+        return [f"{label(module, point)}: {error}"]
+    return [line for line in log.splitlines() if line.startswith("Warning")]
+
+
+def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
+    options = [f"-G{name}={value}" for name, value in point.items()]
+    files = ["rtl/lint.vlt", "-f", "rtl/shade.f"]
+    command = ["verilator", "--lint-only", "-Wall", "--top-module", module, *options, *files]
+    return subprocess.run(command, cwd=tools.ROOT, env=tools.environment(), capture_output=True, text=True)
+
+
+def _ruff(*arguments: str) -> list[str]:
+    command = [sys.executable, "-m", "ruff", *arguments]
+    done = subprocess.run(command, cwd=tools.ROOT, capture_output=True, text=True)
+    return (done.stdout + done.stderr).splitlines() if done.returncode else []
+
+
+def _header_lines(text: str) -> int:
+    lines = text.splitlines()
+    return next((n for n, line in enumerate(lines) if not line.startswith("//")), len(lines))
+
+
+def _resolves(name: str) -> bool:
+    module, _, attribute = name.rpartition(".")
+    try:
+        return hasattr(importlib.import_module(module), attribute)
+    except ImportError:
+        return False
+
+
+def _short(path: Path) -> Path:
+    return path.relative_to(tools.ROOT)
+
+
+def main() -> int:
+    """Run every check on all cores, print one line per fault and a summary; 1 when there is a fault."""
+    checks = list(items())
+    faulty = 0
+    with ThreadPoolExecutor(os.cpu_count()) as pool, tqdm(total=len(checks), disable=None, delay=2) as bar:
+        for item, faults in zip(checks, pool.map(lambda item: item.check(), checks), strict=True):
+            bar.update()
+            faulty += bool(faults)
+            for fault in faults:
+                tqdm.write(f"{item.name}: {fault}")
+    print(f"lint: {len(checks)} checks, {faulty} failed")
+    return int(faulty > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

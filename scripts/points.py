@@ -1,0 +1,53 @@
+"""Parameter points at which every module is elaborated on its own, by lint and by synthesis.
+
+The default point is always one of them. ``REFUSED`` holds points that elaboration must refuse in words.
+"""
+
+from itertools import product
+
+Point = dict[str, int]
+
+
+def grid(**choices: list[int]) -> list[Point]:
+    """Every combination of the choices: ``grid(FORM=[0, 1])`` is ``[{"FORM": 0}, {"FORM": 1}]``."""
+    return [dict(zip(choices, values, strict=True)) for values in product(*choices.values())]
+
+
+POINTS: dict[str, list[Point]] = {
+    "shade_delay": [{"DEPTH": 0}, {"WIDTH": 1, "DEPTH": 1}, {"WIDTH": 33, "DEPTH": 3}],
+    "shade_valid": [{"DEPTH": 2}],
+    "shade_round": [
+        {"WIDTH": 2, "DROP": 1},
+        {"WIDTH": 40, "DROP": 16},
+        {"WIDTH": 20, "DROP": 3, "OUT_W": 17},
+    ],
+    "shade_saturate": [{"WIDTH": 3, "OUT_W": 1}, {"WIDTH": 40, "OUT_W": 8}],
+    "shade_mul": [*grid(A_W=[2, 18, 19, 35], STAGES=[0, 2]), {"A_W": 17, "B_W": 2}],
+    "shade_third": grid(WIDTH=[4, 28], FORM=[0, 1]),
+    "shade_coef_a": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
+    "shade_coef_b": grid(WIDTH=[3, 18, 20], NODES=[0, 1]),
+    "shade_coef_c": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
+    "shade_coef_d": grid(WIDTH=[3, 20]),
+    "shade_coef": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
+    "shade_poly_span": grid(EVALUATOR=[0, 1], FORM=[0, 1]),
+}
+
+REFUSED: dict[str, list[Point]] = {
+    "shade_delay": [{"WIDTH": 0}],
+    "shade_valid": [{"DEPTH": 0}],
+    "shade_round": [{"WIDTH": 4, "DROP": 4}, {"DROP": 0}],
+    "shade_saturate": [{"WIDTH": 8, "OUT_W": 7}],
+    "shade_mul": [{"A_W": 36}, {"B_W": 19}, {"STAGES": 1}],
+    "shade_third": [{"WIDTH": 3}, {"WIDTH": 29}],
+    "shade_coef_a": [{"WIDTH": 2}, {"WIDTH": 21}],
+}
+
+
+def points(module: str) -> list[Point]:
+    """The points of a module, the default one (``{}``) first."""
+    return [{}, *POINTS.get(module, [])]
+
+
+def label(module: str, point: Point) -> str:
+    """``shade_third[WIDTH=4,FORM=1]``: how a module at a point is called in tests, messages and reports."""
+    return module + ("[" + ",".join(f"{k}={v}" for k, v in point.items()) + "]" if point else "")

@@ -1,0 +1,12 @@
+"""Every check of ``make lint`` as a test of its own."""
+
+import pytest
+
+from scripts import lint
+
+
+@pytest.mark.parametrize("item", lint.items(), ids=lambda item: item.name.replace(" ", "-"))
+def test_lint(item: lint.Item) -> None:
+    """No fault found."""
+    faults = item.check()
+    assert not faults, "\n".join(faults)

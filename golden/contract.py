@@ -1,0 +1,74 @@
+"""The contract between the RTL, the golden model and every user: formats, latencies, limits, codes.
+
+This is the one place where they are written down.  ``python -m scripts.generate`` turns it into
+``rtl/shade_pkg.sv``; a test fails when the two differ.  ``W`` is a width in bits, ``F`` the number of fraction
+bits among them; ``S1.16`` is a signed number with a sign, one integer bit and 16 fraction bits (18 bits).
+
+Everything that a user can observe is part of the contract: ports, parameters, latency and the output to the bit.
+"""
+
+# ---- forms of a unit -------------------------------------------------------------------------------------------
+FORM_PAPER = 0  # exactly what the paper prints
+FORM_REFINED = 1  # the paper's idea with its defects repaired; the default everywhere
+
+# ---- codes -----------------------------------------------------------------------------------------------------
+NODES_LEFT = 0  # cubic nodes {0, 1/4, 1/2, 1} (paper P1, first set)
+NODES_RIGHT = 1  # cubic nodes {0, 1/2, 3/4, 1} (paper P1, second set)
+EVALUATOR_HORNER = 0
+EVALUATOR_FDIFF = 1
+DEGREE_DIRECT = 0  # up to four pixels, each given by its own intensity
+DEGREE_LINEAR = 1
+DEGREE_QUADRATIC = 2
+DEGREE_CUBIC = 3
+
+# ---- formats ---------------------------------------------------------------------------------------------------
+INTENSITY_W = 18  # S1.16: one signed 18 x 18 multiplier operand on every FPGA
+INTENSITY_F = 16
+COEF_GROWTH = 7  # |A|, |B|, |C| <= 76 max|I| (node set right, B): seven more bits than an intensity
+COEF_W = INTENSITY_W + COEF_GROWTH  # S8.16
+T_F = 16  # t is U1.16 in [0, 1], 17 bits
+VALUE_GROWTH = 2  # |A t^3 + B t^2 + C t + D| <= 3 * 2^8 + 2 < 2^10: two more bits than a coefficient
+VALUE_W = COEF_W + VALUE_GROWTH  # S10.16, the unclamped intensity of a pixel
+HORNER_GUARD = 3  # fraction bits that Horner keeps below an ulp; error <= 1/2 + 3/16 ulp
+PIXEL_W = 16  # U0.16, clamped to [0, 1 - 2^-16]
+
+# ---- spans -----------------------------------------------------------------------------------------------------
+CHANNELS = 2  # diffuse, specular
+NODE_COUNT = 4
+LOG2_MAX = 12  # a span has at most 2^12 pixels
+COUNT_W = 13
+DEGREE_W = 2
+TAG_W = 16
+PIXELS_MAX = 1 << LOG2_MAX
+DIRECT_MAX = NODE_COUNT  # pixels of a span in direct mode
+FIFO_LOG2 = 5  # pixels that shade_poly_span can hold back for a stalled consumer: 2^5
+
+# ---- packets (AXI4-Stream, one beat each) ----------------------------------------------------------------------
+SPAN_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
+SPAN_COUNT_LSB = 144  # pixels of the span
+SPAN_DEGREE_LSB = 158  # 0 direct, 1 linear, 2 quadratic, 3 cubic
+SPAN_TAG_LSB = 160  # given back with every pixel
+PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
+
+# ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
+LATENCY_MUL = 2  # partial products, their sum
+LATENCY_THIRD = 5  # four adders, one rounding
+LATENCY_COEF = 3 + LATENCY_THIRD + 1  # differences, two levels of adders, x/3, sum with what is not divided
+LATENCY_HORNER_STEP = LATENCY_MUL + 1  # product, sum with the next coefficient
+LATENCY_HORNER_PIPE = 3 * LATENCY_HORNER_STEP
+LATENCY_HORNER_SEQ = 6  # clocks a value: load and the five steps of P1, Fig. 9
+LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the rounding
+LATENCY_FIFO = 2  # memory, output register
+LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
+LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
+
+# ---- error bits of shade_poly_span -------------------------------------------------------------------------------
+ERROR_EMPTY = 0  # a span of 0 pixels
+ERROR_LONG = 1  # more pixels than 2^LOG2_MAX
+ERROR_DIRECT = 2  # direct mode with more than four pixels
+ERROR_W = 3
+
+
+def constants() -> dict[str, int]:
+    """All constants of the contract by name, in the order in which they are written above."""
+    return {name: value for name, value in globals().items() if name.isupper() and isinstance(value, int)}

@@ -1,0 +1,63 @@
+// shade_mul: p = a b, signed. The only module of Polyshade in which a multiplication stands.
+//
+// An operand a of more than 18 bits is cut, so that every product fits one 18 x 18 block of any FPGA:
+//
+//   a = ah 2^17 + al      ah signed, A_W - 17 bits; al unsigned, 17 bits
+//   p = (ah b) 2^17 + al b
+//
+// STAGES = 2: a register behind every product, then one behind their sum; latency LATENCY_MUL = 2 clocks, one
+// product a clock. STAGES = 0: combinational, for an evaluator whose own register stands behind it.
+// Exact, no rounding. Example: a = -3, b = 5 -> p = -15.
+module shade_mul #(
+  parameter int A_W    = 30,
+  parameter int B_W    = 18,
+  parameter int STAGES = shade_pkg::LATENCY_MUL
+) (
+  input  logic                      clk_i,
+  input  logic signed [    A_W-1:0] a_i,
+  input  logic signed [    B_W-1:0] b_i,
+  output logic signed [A_W+B_W-1:0] p_o
+);
+  if (A_W < 2 || A_W > 35 || B_W < 2 || B_W > 18 || (STAGES != 0 && STAGES != shade_pkg::LATENCY_MUL)) begin : g_check
+    $error("shade_mul: A_W must be in 2 .. 35, B_W in 2 .. 18 and STAGES 0 or LATENCY_MUL");
+  end
+
+  localparam int P_W = A_W + B_W;
+  localparam int LOW = 17;
+  localparam bit CUT = A_W > 18;
+  localparam int HIGH_W = CUT ? A_W - LOW : A_W;
+
+  logic signed [HIGH_W-1:0] ah;
+  logic signed [HIGH_W+B_W-1:0] high, high_p;  // ah b, and behind its register
+  logic signed [P_W-1:0] sum;
+  assign ah   = a_i[A_W-1-:HIGH_W];
+  assign high = ah * b_i;
+
+  if (CUT) begin : g_cut
+    logic signed [LOW:0] al;
+    logic signed [LOW+B_W:0] low, low_p;
+    assign al  = {1'b0, a_i[LOW-1:0]};
+    assign low = al * b_i;
+    if (STAGES == 0) begin : g_wire
+      assign low_p = low;
+    end else begin : g_register
+      always_ff @(posedge clk_i) low_p <= low;
+    end
+    // the lower 17 bits of al b are those of p: the adder is that much shorter
+    assign sum = {high_p + (HIGH_W + B_W)'(low_p >>> LOW), low_p[LOW-1:0]};
+  end else begin : g_whole
+    assign sum = high_p;
+  end
+
+  if (STAGES == 0) begin : g_wire
+    assign high_p = high;
+    assign p_o    = sum;
+    logic unused_clk;
+    assign unused_clk = clk_i;
+  end else begin : g_register
+    always_ff @(posedge clk_i) begin
+      high_p <= high;
+      p_o    <= sum;
+    end
+  end
+endmodule

@@ -1,0 +1,20 @@
+// Every source of Polyshade, package first, a module before those that use it; paths from the repository's root.
+rtl/shade_pkg.sv
+rtl/fixed/shade_delay.sv
+rtl/fixed/shade_valid.sv
+rtl/fixed/shade_round.sv
+rtl/fixed/shade_saturate.sv
+rtl/fixed/shade_mul.sv
+rtl/fixed/shade_third.sv
+rtl/poly/shade_coef_a.sv
+rtl/poly/shade_coef_b.sv
+rtl/poly/shade_coef_c.sv
+rtl/poly/shade_coef_d.sv
+rtl/poly/shade_coef.sv
+rtl/poly/shade_horner_step.sv
+rtl/poly/shade_horner_pipe.sv
+rtl/poly/shade_horner_seq.sv
+rtl/poly/shade_fdiff.sv
+rtl/stream/shade_fifo.sv
+rtl/poly/shade_span_walk.sv
+rtl/poly/shade_poly_span.sv

@@ -1,0 +1,49 @@
+// shade_fifo: first in, first out: 2^LOG2 words of memory and an output register.
+//
+// valid_i writes; the writer keeps a credit for every word, so that a full FIFO is never written (no ready_o, hence no
+// path from ready_i to the writer). valid_o and data_o come from registers and hold until ready_i takes them;
+// a word taken frees one credit: taken_o, a clock later.
+// Capacity 2^LOG2 words. Latency LATENCY_FIFO = 2 clocks when empty, one word a clock.
+// Example (ready_i = 1): words 5, 6 written in clocks 0, 1 stand at data_o in clocks 2, 3.
+module shade_fifo #(
+  parameter int WIDTH = 32,
+  parameter int LOG2  = shade_pkg::FIFO_LOG2
+) (
+  input  logic             clk_i,
+  input  logic             rst_i,
+  input  logic             valid_i,
+  input  logic [WIDTH-1:0] data_i,
+  output logic             valid_o,
+  input  logic             ready_i,
+  output logic [WIDTH-1:0] data_o,
+  output logic             taken_o
+);
+  if (WIDTH < 1 || LOG2 < 1) begin : g_check
+    $error("shade_fifo: WIDTH and LOG2 must be at least 1");
+  end
+
+  localparam int DEPTH = 1 << LOG2;
+  logic [WIDTH-1:0] memory[0:DEPTH-1];
+  logic [LOG2:0] write_q, read_q;  // one bit more than an address: equal means empty
+  logic read;
+  assign read = write_q != read_q && (!valid_o || ready_i);
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) memory[write_q[LOG2-1:0]] <= data_i;
+    if (read) data_o <= memory[read_q[LOG2-1:0]];
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) write_q <= write_q + 1'b1;
+    if (read) read_q <= read_q + 1'b1;
+    if (read) valid_o <= 1'b1;
+    else if (ready_i) valid_o <= 1'b0;
+    taken_o <= valid_o && ready_i;
+    if (rst_i) begin
+      write_q <= '0;
+      read_q  <= '0;
+      valid_o <= 1'b0;
+      taken_o <= 1'b0;
+    end
+  end
+endmodule

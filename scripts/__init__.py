@@ -1,0 +1,1 @@
+"""Polyshade's command line, tool set-up, synthesis and reports."""

@@ -13,7 +13,9 @@ from golden import contract as k
 from golden.fixed import Int, integers, round, saturate, third
 
 
-def coef_a(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
+def coef_a(
+    degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED
+) -> Int:
     """A of the cubic through four nodes; 0 for a lower degree (``shade_coef_a``).
 
     Left {0, 1/4, 1/2, 1}: 8 (8 I2 + I4 - 3 I1 - 6 I3)/3, right {0, 1/2, 3/4, 1}: 8 (6 I2 + 3 I4 - I1 - 8 I3)/3, to nearest.
@@ -43,10 +45,14 @@ def coef_b(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT) -> I
         cubic = 2 * (7 * i1 - 16 * i2 + 10 * i3 - i4)
     else:
         cubic = 2 * (3 * i1 - 14 * i2 + 16 * i3 - 5 * i4)
-    return np.select([degree == k.DEGREE_CUBIC, degree == k.DEGREE_QUADRATIC], [cubic, 2 * (i1 - 2 * i2 + i3)], 0)
+    return np.select(
+        [degree == k.DEGREE_CUBIC, degree == k.DEGREE_QUADRATIC], [cubic, 2 * (i1 - 2 * i2 + i3)], 0
+    )
 
 
-def coef_c(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
+def coef_c(
+    degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED
+) -> Int:
     """C of the cubic, the parabola or the line; 0 for degree 0 (``shade_coef_c``). |C| <= 30 max|I|.
 
     Left: (32 I2 + I4 - 21 I1 - 12 I3)/3, right: (36 I2 + 9 I4 - 13 I1 - 32 I3)/3, to nearest; degree 2: 4 I2 - 3 I1 - I3; degree
@@ -64,7 +70,9 @@ def coef_c(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form
         paper = 3 * (4 * i2 + i4) + third(-(13 * i1 + 32 * i3), k.FORM_PAPER)
     cubic = refined if form == k.FORM_REFINED else paper
     lower = [4 * i2 - 3 * i1 - i3, i2 - i1]
-    return np.select([degree == d for d in (k.DEGREE_CUBIC, k.DEGREE_QUADRATIC, k.DEGREE_LINEAR)], [cubic, *lower], 0)
+    return np.select(
+        [degree == d for d in (k.DEGREE_CUBIC, k.DEGREE_QUADRATIC, k.DEGREE_LINEAR)], [cubic, *lower], 0
+    )
 
 
 def coef_d(i1: ArrayLike) -> Int:
@@ -185,7 +193,9 @@ def poly_span(
     degree, count = integers(degree, count)
     span, j = span_walk(degree, count, log2_max=log2_max)
     direct = np.flatnonzero(degree[span] == k.DEGREE_DIRECT)
-    a, b, c, d = (v[span] for v in coef(degree[:, None], *np.moveaxis(nodes, -1, 0), nodes=node_set, form=form))
+    a, b, c, d = (
+        v[span] for v in coef(degree[:, None], *np.moveaxis(nodes, -1, 0), nodes=node_set, form=form)
+    )
     d[direct] = nodes[span[direct], :, j[direct]]
     log2 = span_log2(count)[span, None]
     if evaluator == k.EVALUATOR_HORNER:
@@ -201,12 +211,18 @@ def pack_spans(nodes: ArrayLike, degree: ArrayLike, count: ArrayLike, tag: Array
     degree, count, tag = integers(degree, count, tag)
     mask = (1 << k.INTENSITY_W) - 1
     fields = [
-        *((nodes[:, c, i], mask, k.INTENSITY_W * (k.NODE_COUNT * c + i)) for c in range(k.CHANNELS) for i in range(k.NODE_COUNT)),
+        *(
+            (nodes[:, c, i], mask, k.INTENSITY_W * (k.NODE_COUNT * c + i))
+            for c in range(k.CHANNELS)
+            for i in range(k.NODE_COUNT)
+        ),
         (count, (1 << k.COUNT_W) - 1, k.SPAN_COUNT_LSB),
         (degree, (1 << k.DEGREE_W) - 1, k.SPAN_DEGREE_LSB),
         (tag, (1 << k.TAG_W) - 1, k.SPAN_TAG_LSB),
     ]
-    words = np.zeros((len(nodes), k.SPAN_DATA_W // 32 + 1), np.uint64)  # the last one takes a carry that is always 0
+    words = np.zeros(
+        (len(nodes), k.SPAN_DATA_W // 32 + 1), np.uint64
+    )  # the last one takes a carry that is always 0
     for value, field_mask, lsb in fields:
         word, shift = divmod(lsb, 32)
         bits = (value & field_mask).astype(np.uint64) << np.uint64(shift)

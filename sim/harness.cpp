@@ -1,0 +1,161 @@
+// Drives a Verilated module from arrays: one row of inputs a transfer, one row of outputs a transfer, clock by clock.
+//
+// Included behind a generated part (sim/model.py) that defines
+//   DUT, IN_PORTS, OUT_PORTS, STATUS_PORTS   the module's class and its numbers of ports
+//   tick_in, tick_out, drive, collect, ...   access to the ports by row
+// The generated part knows the names, this file the protocol:
+//
+//   CLOCKED = false   combinational: a row is evaluated at once
+//   IN_VALID/READY    the input transfers when valid and ready (without ready: when valid)
+//   OUT_VALID/READY   likewise; without OUT_VALID a row leaves `latency` clocks after it entered
+
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+struct Random {  // xorshift64*: fast, and the same sequence everywhere
+    uint64_t state;
+    bool chance(uint32_t of_65536) {
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        return ((state * 0x2545F4914F6CDD1DULL) >> 48) < of_65536;
+    }
+};
+
+struct Session {
+    VerilatedContext context;
+    DUT* top = nullptr;
+    std::vector<std::vector<uint64_t>> out;  // a vector a port, `words` entries a row
+    std::vector<uint64_t> taken, given;      // the clock of every transfer
+    uint64_t clocks = 0;
+    uint64_t status[STATUS_PORTS + 1] = {};
+#if WAVES
+    VerilatedVcdC trace;
+#endif
+
+    explicit Session(uint64_t seed, const char* waves) : out(OUT_PORTS) {
+        context.randReset(2);  // registers without reset start with random contents
+        context.randSeed(int(seed & 0x7fffffff) | 1);
+#if WAVES
+        context.traceEverOn(true);
+#endif
+        top = new DUT{&context};
+#if WAVES
+        top->trace(&trace, 99);
+        trace.open(waves);
+#else
+        (void)waves;
+#endif
+    }
+    ~Session() {
+        top->final();
+        delete top;
+    }
+    void eval() {
+        top->eval();
+#if WAVES
+        trace.dump(context.time());
+        context.timeInc(1);
+#endif
+    }
+};
+
+}  // namespace
+
+extern "C" {
+
+struct Job {
+    uint64_t rows;
+    const void* const* in;
+    uint32_t in_gap, out_stall;  // probabilities in 1/65536 a clock
+    uint64_t seed, latency, drain, patience;
+    const char* waves;
+    uint64_t given;  // out: number of rows
+    uint64_t clocks;  // out: up to and with the last transfer of an output
+    uint64_t simulated;  // out: all clocks
+};
+
+// 0: done; 1: the module took no input and gave no output for `patience` clocks
+int model_run(Job* job, void** session) {
+    auto* s = new Session(job->seed, job->waves);
+    *session = s;
+    Random random{job->seed * 2654435761u + 88172645463325252ULL};
+    uint64_t next = 0, quiet = 0, clock = 0;
+    bool offer = false;
+    int result = 0;
+    s->taken.reserve(job->rows);
+    s->given.reserve(job->rows);
+    for (auto& port : s->out) port.reserve(job->rows);
+
+    if (!CLOCKED) {
+        for (; next < job->rows; next++, clock++) {
+            drive(*s->top, job->in, next);
+            s->eval();
+            s->taken.push_back(clock);
+            s->given.push_back(clock);
+            collect(*s->top, s->out);
+        }
+    } else {
+        set_reset(*s->top, 1);
+        set_in_valid(*s->top, 0);
+        set_out_ready(*s->top, 0);
+        for (int i = 0; i < 3; i++) {
+            set_clock(*s->top, 0);
+            s->eval();
+            set_clock(*s->top, 1);
+            s->eval();
+        }
+        set_reset(*s->top, 0);
+        for (;; clock++) {
+            set_clock(*s->top, 0);
+            if (!offer && next < job->rows && !(job->in_gap && random.chance(job->in_gap))) {
+                drive(*s->top, job->in, next);
+                offer = true;
+            }
+            set_in_valid(*s->top, offer);
+            const bool ready = !(job->out_stall && random.chance(job->out_stall));
+            set_out_ready(*s->top, ready);
+            s->eval();
+
+            const bool take = offer && in_ready(*s->top);
+            const bool valid = OUT_VALID ? out_valid(*s->top)
+                                         : clock >= job->latency && clock - job->latency < job->rows;
+            if (take) {
+                s->taken.push_back(clock);
+                next++;
+                offer = false;
+            }
+            if (valid && ready) {
+                s->given.push_back(clock);
+                s->clocks = clock + 1;
+                collect(*s->top, s->out);
+            }
+            quiet = take || valid ? 0 : quiet + 1;
+
+            set_clock(*s->top, 1);
+            s->eval();
+            if (next >= job->rows && !offer && quiet >= job->drain) break;
+            if (quiet >= job->patience + job->drain) {
+                result = 1;
+                break;
+            }
+        }
+        read_status(*s->top, s->status);
+    }
+    job->given = s->given.size();
+    job->clocks = CLOCKED ? s->clocks : clock;
+    job->simulated = clock;
+    return result;
+}
+
+const uint64_t* model_out(void* session, int port) { return static_cast<Session*>(session)->out[port].data(); }
+const uint64_t* model_taken(void* session) { return static_cast<Session*>(session)->taken.data(); }
+const uint64_t* model_given(void* session) { return static_cast<Session*>(session)->given.data(); }
+uint64_t model_taken_rows(void* session) { return static_cast<Session*>(session)->taken.size(); }
+const uint64_t* model_status(void* session) { return static_cast<Session*>(session)->status; }
+void model_free(void* session) { delete static_cast<Session*>(session); }
+
+}  // extern "C"

@@ -1,0 +1,278 @@
+"""Any module of the RTL as a NumPy-callable object: arrays in, arrays and clocks out, at millions of clocks a second.
+
+>>> third = sim.load("shade_third", WIDTH=18)
+>>> run = third.run(x_i=np.arange(-4, 5))
+>>> run.y_o.tolist(), run.clocks, (run.given - run.taken).tolist()[:3]
+([-1, -1, -1, 0, 0, 0, 1, 1, 1], 14, [5, 5, 5])
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from scripts import tools
+from sim import verilate
+from sim.errors import UserError
+from sim.verilate import Port
+
+WORDS_MAX = (
+    64  # bits of a port that travel as one integer; wider ones as rows of uint32, least significant first
+)
+
+
+class SimulationError(Exception):
+    """The module stopped: it neither took an input nor gave an output for too long."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One side of a module: its data ports, and the names of valid and ready (None: there is none)."""
+
+    data: list[Port]
+    valid: str | None
+    ready: str | None
+
+
+@dataclass(frozen=True)
+class Interface:
+    """The roles of a module's ports, told by their names (architecture: ``valid_i``, ``s_axis_*_tvalid``, ...)."""
+
+    clock: bool
+    reset: bool
+    into: Channel
+    out: Channel
+    status: list[Port]
+
+
+def interface(ports: list[Port]) -> Interface:
+    """Sort ports into an input channel, an output channel and status outputs.
+
+    A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel; otherwise all inputs but clock, reset
+    and handshakes are, with ``valid_i`` and ``ready_o`` if there. Outputs likewise with ``m_axis_<name>_*``, whose other
+    outputs are status, or ``valid_o`` and ``ready_i``.
+    """
+    names = {port.name for port in ports}
+    handshakes = {"clk_i", "rst_i", "valid_i", "ready_i", "valid_o", "ready_o"}
+
+    def channel(direction: str, prefix: str, valid: str, ready: str) -> tuple[Channel, list[Port]]:
+        own = [port for port in ports if port.direction == direction and port.name not in handshakes]
+        axis = next((m[1] for name in names if (m := re.match(rf"({prefix}_axis_\w+)_tvalid$", name))), None)
+        if axis:
+            data = [p for p in own if p.name.startswith(axis) and not p.name.endswith(("_tvalid", "_tready"))]
+            rest = [p for p in own if p not in data and "_axis_" not in p.name]
+            return Channel(data, f"{axis}_tvalid", f"{axis}_tready"), rest
+        own = [p for p in own if "_axis_" not in p.name]
+        return Channel(own, valid if valid in names else None, ready if ready in names else None), []
+
+    into, _ = channel("input", "s", "valid_i", "ready_o")
+    out, status = channel("output", "m", "valid_o", "ready_i")
+    return Interface("clk_i" in names, "rst_i" in names, into, out, status)
+
+
+def _glue(ports: list[Port]) -> str:
+    """The C++ that knows the names of the ports; what it must define is listed in harness.cpp."""
+    face = interface(ports)
+
+    def drive(port: Port, index: int) -> str:
+        if port.width <= WORDS_MAX:
+            return f"  t.{port.name} = static_cast<const uint64_t*>(in[{index}])[row];\n"
+        words = -(-port.width // 32)
+        source = f"static_cast<const uint32_t*>(in[{index}]) + row * {words}"
+        return f"  for (int w = 0; w < {words}; w++) t.{port.name}[w] = ({source})[w];\n"
+
+    def collect(port: Port, index: int) -> str:
+        if port.width <= WORDS_MAX:
+            return f"  out[{index}].push_back(t.{port.name});\n"
+        return (
+            f"  for (int w = 0; w < {-(-port.width // 32)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
+        )
+
+    def setter(name: str, port: str | None) -> str:
+        return f"void {name}(DUT& t, int v) {{ {f't.{port} = v;' if port else '(void)t; (void)v;'} }}\n"
+
+    def getter(name: str, port: str | None) -> str:
+        return f"bool {name}(DUT& t) {{ {f'return t.{port};' if port else '(void)t; return true;'} }}\n"
+
+    return f"""
+#include <cstdint>
+#include <vector>
+using DUT = Vdut;
+constexpr bool CLOCKED = {str(face.clock).lower()}, OUT_VALID = {str(face.out.valid is not None).lower()};
+constexpr int OUT_PORTS = {len(face.out.data)}, STATUS_PORTS = {len(face.status)};
+namespace {{
+{setter("set_clock", "clk_i" if face.clock else None)}{setter("set_reset", "rst_i" if face.reset else None)}\
+{setter("set_in_valid", face.into.valid)}{getter("in_ready", face.into.ready)}\
+{getter("out_valid", face.out.valid)}{setter("set_out_ready", face.out.ready)}\
+inline void drive(DUT& t, const void* const* in, uint64_t row) {{
+{"".join(drive(port, i) for i, port in enumerate(face.into.data))}}}
+inline void collect(DUT& t, std::vector<std::vector<uint64_t>>& out) {{
+{"".join(collect(port, i) for i, port in enumerate(face.out.data))}}}
+inline void read_status(DUT& t, uint64_t* status) {{
+{"".join(f"  status[{i}] = t.{port.name};" for i, port in enumerate(face.status))}}}
+}}
+"""
+
+
+class _Job(ctypes.Structure):
+    _fields_ = (
+        ("rows", ctypes.c_uint64),
+        ("in", ctypes.c_void_p),
+        ("in_gap", ctypes.c_uint32),
+        ("out_stall", ctypes.c_uint32),
+        ("seed", ctypes.c_uint64),
+        ("latency", ctypes.c_uint64),
+        ("drain", ctypes.c_uint64),
+        ("patience", ctypes.c_uint64),
+        ("waves", ctypes.c_char_p),
+        ("given", ctypes.c_uint64),
+        ("clocks", ctypes.c_uint64),
+        ("simulated", ctypes.c_uint64),
+    )
+
+
+class Run:
+    """What a run gave: every data output as an array attribute of its name, and when.
+
+    ``taken[i]``, ``given[j]``: the clock (0: the first after reset) of input transfer i and of output transfer j;
+    ``clocks``: clocks up to and with the last output; ``simulated``: all clocks; ``status``: status outputs at the end.
+    """
+
+    def __init__(self, outputs: dict[str, np.ndarray], taken, given, clocks: int, simulated: int, status):
+        self.outputs, self.taken, self.given = outputs, taken, given
+        self.clocks, self.simulated, self.status = clocks, simulated, status
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        try:
+            return self.__dict__["outputs"][name]
+        except KeyError:
+            raise AttributeError(f"no output {name}, there are {', '.join(self.outputs)}") from None
+
+
+class Model:
+    """A module at a parameter point. Every :meth:`run` starts from reset with random contents of what reset leaves alone."""
+
+    def __init__(self, module: str, parameters: dict[str, int], *, waves: bool):
+        library, self.ports = verilate.build(module, parameters, _glue, waves=waves)
+        self.module, self.parameters, self.waves = module, parameters, waves
+        self.interface = interface(self.ports)
+        self._library = ctypes.CDLL(str(library))
+        for name in ("model_out", "model_taken", "model_given", "model_status"):
+            getattr(self._library, name).restype = ctypes.c_void_p
+        self._library.model_taken_rows.restype = ctypes.c_uint64
+
+    def __repr__(self) -> str:
+        return f"{self.module}({', '.join(f'{name}={value}' for name, value in self.parameters.items())})"
+
+    def _input(self, port: Port, value: ArrayLike, rows: int) -> np.ndarray:
+        array = np.asarray(value)
+        if array.dtype.kind not in "iub":
+            raise UserError(f"{self.module}.{port.name}: {array.dtype} given, allowed integers")
+        if port.width > WORDS_MAX:
+            words = -(-port.width // 32)
+            return np.ascontiguousarray(np.broadcast_to(array, (rows, words)), np.uint32)
+        low, high = (
+            (-(1 << port.width - 1), (1 << port.width - 1) - 1) if port.signed else (0, (1 << port.width) - 1)
+        )
+        if array.size and (array.min() < low or array.max() > high):
+            raise UserError(
+                f"{self.module}.{port.name}: {array.min()} .. {array.max()} given, allowed {low} .. {high}"
+            )
+        bits = np.broadcast_to(array, (rows,)).astype(np.int64, copy=False).view(np.uint64)
+        if port.signed:
+            bits = bits & np.uint64((1 << port.width) - 1)
+        return np.ascontiguousarray(bits)
+
+    def run(
+        self,
+        *,
+        in_gap: float = 0.0,
+        out_stall: float = 0.0,
+        seed: int = 1,
+        latency: int = 0,
+        drain: int = 256,
+        patience: int = 100_000,
+        **inputs: ArrayLike,
+    ) -> Run:
+        """Stream arrays through the module, one row a transfer.
+
+        ``inputs``: an array (rows,) or a number for every data input, by name; ports of more than 64 bits as (rows, words) of
+        uint32. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer. ``latency``: of a
+        module without ``valid_o``. The run ends ``drain`` clocks after the last event.
+        Raises UserError for missing, unknown or out-of-range inputs, SimulationError when the module stops.
+        """
+        face = self.interface
+        names = [port.name for port in face.into.data]
+        if set(inputs) != set(names):
+            raise UserError(
+                f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {', '.join(names)}"
+            )
+        rows = max([1, *(len(np.asarray(inputs[n])) for n in names if np.asarray(inputs[n]).ndim)])
+        arrays = [self._input(port, inputs[port.name], rows) for port in face.into.data]
+        pointers = (ctypes.c_void_p * max(1, len(arrays)))(*(array.ctypes.data for array in arrays))
+        waves = tools.BUILD / "waves" / f"{self.module}.vcd"
+        if self.waves:
+            waves.parent.mkdir(parents=True, exist_ok=True)
+        job = _Job(
+            rows, ctypes.cast(pointers, ctypes.c_void_p), int(in_gap * 65536), int(out_stall * 65536), seed,
+            latency, drain, patience, str(waves).encode(),
+        )  # fmt: skip
+        session = ctypes.c_void_p()
+        stopped = self._library.model_run(ctypes.byref(job), ctypes.byref(session))
+        try:
+            return self._result(job, session, stopped, rows)
+        finally:
+            self._library.model_free(session)
+
+    def _result(self, job: _Job, session: ctypes.c_void_p, stopped: int, rows: int) -> Run:
+        def column(pointer: int | None, count: int) -> np.ndarray:
+            if not count:
+                return np.zeros(0, np.uint64)
+            return np.ctypeslib.as_array(
+                ctypes.cast(pointer, ctypes.POINTER(ctypes.c_uint64)), (count,)
+            ).copy()
+
+        taken = column(self._library.model_taken(session), self._library.model_taken_rows(session))
+        if stopped:
+            raise SimulationError(
+                f"{self!r} stopped: {len(taken)} of {rows} inputs taken, {job.given} outputs given, nothing for "
+                f"{job.patience} clocks"
+            )
+        face = self.interface
+        outputs = {}
+        for index, port in enumerate(face.out.data):
+            words = 1 if port.width <= WORDS_MAX else -(-port.width // 32)
+            value = column(self._library.model_out(session, index), job.given * words)
+            if words > 1:
+                value = value.reshape(-1, words).astype(np.uint32)
+            else:
+                value = value.view(np.int64)
+                if port.signed:
+                    shift = 64 - port.width
+                    value = value << shift >> shift
+            outputs[port.name] = value
+        given = column(self._library.model_given(session), job.given).view(np.int64)
+        status = column(self._library.model_status(session), len(face.status))
+        named = {port.name: int(value) for port, value in zip(face.status, status, strict=True)}
+        return Run(outputs, taken.view(np.int64), given, job.clocks, job.simulated, named)
+
+
+_loaded: dict[object, Model] = {}
+
+
+def load(module: str, *, waves: bool | None = None, **parameters: int) -> Model:
+    """The Verilated model of a module at a parameter point, compiled when first asked for.
+
+    ``waves`` (default: the environment's ``WAVES=1``) writes ``build/waves/<module>.vcd`` during a run.
+    Raises UserError for an unknown module or tool, RuntimeError with the tool's words when it does not elaborate.
+    """
+    waves = os.environ.get("WAVES", "0") not in ("", "0") if waves is None else waves
+    key = (module, tuple(sorted(parameters.items())), waves)
+    if key not in _loaded:
+        _loaded[key] = Model(module, parameters, waves=waves)
+    return _loaded[key]

@@ -26,9 +26,10 @@ from tqdm import tqdm
 
 from scripts import tools
 from scripts.points import REFUSED, Point, label, points
-from scripts.sources import modules, sources
+from scripts.sources import BUILD, ROOT, modules, sources
+from sim.errors import UserError
 
-RTL = tools.ROOT / "rtl"
+RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
 
 
@@ -82,7 +83,7 @@ def mirror(module: str, path: Path) -> list[str]:
         if not re.search(word, header, re.IGNORECASE):
             faults.append(f"{_short(path)}: no '{word}' in its header")
 
-    bench = tools.ROOT / "tb" / path.parent.name / f"test_{module.removeprefix('shade_')}.py"
+    bench = ROOT / "tb" / path.parent.name / f"test_{module.removeprefix('shade_')}.py"
     if not bench.exists():
         faults.append(f"{_short(bench)}: missing, the bench of {module}")
 
@@ -92,18 +93,14 @@ def mirror(module: str, path: Path) -> list[str]:
     if not row:
         faults.append(f"{_short(CATALOGUE)}: no row for {module}")
     elif not twins:
-        faults.append(
-            f"{_short(CATALOGUE)}: the row of {module} names no golden twin, such as `golden.poly.horner`"
-        )
+        faults.append(f"{_short(CATALOGUE)}: the row of {module} names no golden twin, such as `golden.poly.horner`")
     return faults + [f"{_short(CATALOGUE)}: {twin} does not exist" for twin in twins if not _resolves(twin)]
 
 
 def verilator(module: str, point: Point) -> list[str]:
     """Warnings and errors of Verilator for one module as the top."""
     done = _verilate(module, point)
-    return [line for line in done.stderr.splitlines() if line.startswith("%")] or ["failed"] * (
-        done.returncode != 0
-    )
+    return [line for line in done.stderr.splitlines() if line.startswith("%")] or ["failed"] * (done.returncode != 0)
 
 
 def refused(module: str, point: Point) -> list[str]:
@@ -115,7 +112,7 @@ def refused(module: str, point: Point) -> list[str]:
 
 def yosys(module: str, point: Point) -> list[str]:
     """Faults that Yosys finds with either reader, or on the way to gates."""
-    folder = tools.BUILD / "lint" / re.sub(r"\W+", "_", label(module, point))
+    folder = BUILD / "lint" / re.sub(r"\W+", "_", label(module, point))
     shutil.rmtree(folder, ignore_errors=True)
     files = " ".join(os.path.relpath(path, folder) for path in sources())
     chosen = "".join(f" -chparam {name} {value}" for name, value in point.items())
@@ -138,8 +135,8 @@ def yosys(module: str, point: Point) -> list[str]:
     """
     try:
         log = tools.yosys(script, folder)
-    except RuntimeError as error:
-        return [f"{label(module, point)}: {error}"]
+    except UserError as error:
+        return [str(error)]
     return [line for line in log.splitlines() if line.startswith("Warning")]
 
 
@@ -147,12 +144,12 @@ def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
     options = [f"-G{name}={value}" for name, value in point.items()]
     files = ["rtl/lint.vlt", "-f", "rtl/shade.f"]
     command = ["verilator", "--lint-only", "-Wall", "--top-module", module, *options, *files]
-    return subprocess.run(command, cwd=tools.ROOT, env=tools.environment(), capture_output=True, text=True)
+    return subprocess.run(command, cwd=ROOT, env=tools.environment(), capture_output=True, text=True)
 
 
 def _ruff(*arguments: str) -> list[str]:
     command = [sys.executable, "-m", "ruff", *arguments]
-    done = subprocess.run(command, cwd=tools.ROOT, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     return (done.stdout + done.stderr).splitlines() if done.returncode else []
 
 
@@ -170,7 +167,7 @@ def _resolves(name: str) -> bool:
 
 
 def _short(path: Path) -> Path:
-    return path.relative_to(tools.ROOT)
+    return path.relative_to(ROOT)
 
 
 def main() -> int:

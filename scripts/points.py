@@ -42,6 +42,13 @@ REFUSED: dict[str, list[Point]] = {
     "shade_coef_a": [{"WIDTH": 2}, {"WIDTH": 21}],
 }
 
+# Points beside the default one that stand in the synthesis report as well.
+VARIANTS: dict[str, list[Point]] = {
+    "shade_third": [{"FORM": 0}],
+    "shade_coef": [{"FORM": 0}, {"NODES": 1}],
+    "shade_poly_span": [{"EVALUATOR": 1}],
+}
+
 
 def points(module: str) -> list[Point]:
     """The points of a module, the default one (``{}``) first."""

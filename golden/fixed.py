@@ -1,7 +1,7 @@
 """Fixed-point steps that every unit shares: round, saturate, multiply, a third.
 
-Mirrors ``rtl/fixed``. All arguments and results are ``int64`` arrays of any shape (or Python integers); a number x with f
-fraction bits stands for x / 2^f.
+Mirrors ``rtl/fixed``. All arguments and results are ``int64`` arrays of any shape (or Python integers); x with f fraction
+bits stands for x / 2^f.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def integers(*values: ArrayLike) -> tuple[Int, ...]:
     return tuple(np.broadcast_arrays(*(array.astype(np.int64) for array in arrays)))
 
 
-def round(x: ArrayLike, drop: int) -> Int:  # noqa: A001 - the name of the unit
+def round(x: ArrayLike, drop: int) -> Int:
     """floor(x / 2^drop + 1/2): drop fraction bits, to nearest, ties towards plus infinity (``shade_round``).
 
     >>> [int(round(x, 2)) for x in (5, 6, -6, -7)]

@@ -1,6 +1,6 @@
 """Polynomial shading of a raster line (paper P1): coefficients, evaluators, whole spans. Mirrors ``rtl/poly``.
 
-Integers in units of 2^-16: node intensities S1.16 (18 bits), coefficients S8.16, values S10.16, t = U1.16, pixels U0.16.
+Integers in units of 2^-16: node intensities S1.16 (18 bits), coefficients S8.16, values S10.16, t U1.16, pixels U0.16.
 Every function takes arrays of any shape, with broadcasting.
 """
 
@@ -13,13 +13,11 @@ from golden import contract as k
 from golden.fixed import Int, integers, round, saturate, third
 
 
-def coef_a(
-    degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED
-) -> Int:
+def coef_a(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
     """A of the cubic through four nodes; 0 for a lower degree (``shade_coef_a``).
 
-    Left {0, 1/4, 1/2, 1}: 8 (8 I2 + I4 - 3 I1 - 6 I3)/3, right {0, 1/2, 3/4, 1}: 8 (6 I2 + 3 I4 - I1 - 8 I3)/3, to nearest.
-    Paper: only the part that P1 divides goes through its 43/128. |A| <= 48 max|I|.
+    Left {0, 1/4, 1/2, 1}: 8 (8 I2 + I4 - 3 I1 - 6 I3)/3, right {0, 1/2, 3/4, 1}: 8 (6 I2 + 3 I4 - I1 - 8 I3)/3,
+    to nearest. Paper: only the part that P1 divides goes through its 43/128. |A| <= 48 max|I|.
 
     >>> int(coef_a(3, 0, 1024, 8192, 65536))  # the nodes of t^3
     65536
@@ -35,7 +33,9 @@ def coef_a(
 
 
 def coef_b(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT) -> Int:
-    """B: of the cubic, or of the parabola through the nodes {0, 1/2, 1}; else 0 (``shade_coef_b``). Exact, |B| <= 76 max|I|.
+    """B: of the cubic, or of the parabola through the nodes {0, 1/2, 1}; else 0 (``shade_coef_b``).
+
+    Exact, |B| <= 76 max|I|.
 
     >>> int(coef_b(3, 0, 4096, 16384, 65536))  # the nodes of t^2
     65536
@@ -45,18 +45,14 @@ def coef_b(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT) -> I
         cubic = 2 * (7 * i1 - 16 * i2 + 10 * i3 - i4)
     else:
         cubic = 2 * (3 * i1 - 14 * i2 + 16 * i3 - 5 * i4)
-    return np.select(
-        [degree == k.DEGREE_CUBIC, degree == k.DEGREE_QUADRATIC], [cubic, 2 * (i1 - 2 * i2 + i3)], 0
-    )
+    return np.select([degree == k.DEGREE_CUBIC, degree == k.DEGREE_QUADRATIC], [cubic, 2 * (i1 - 2 * i2 + i3)], 0)
 
 
-def coef_c(
-    degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED
-) -> Int:
+def coef_c(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
     """C of the cubic, the parabola or the line; 0 for degree 0 (``shade_coef_c``). |C| <= 30 max|I|.
 
-    Left: (32 I2 + I4 - 21 I1 - 12 I3)/3, right: (36 I2 + 9 I4 - 13 I1 - 32 I3)/3, to nearest; degree 2: 4 I2 - 3 I1 - I3; degree
-    1: I2 - I1.
+    Left: (32 I2 + I4 - 21 I1 - 12 I3)/3, right: (36 I2 + 9 I4 - 13 I1 - 32 I3)/3, to nearest; degree 2: 4 I2 - 3 I1 - I3;
+    degree 1: I2 - I1.
 
     >>> int(coef_c(3, 0, 16384, 32768, 65536))  # the nodes of t
     65536
@@ -70,9 +66,7 @@ def coef_c(
         paper = 3 * (4 * i2 + i4) + third(-(13 * i1 + 32 * i3), k.FORM_PAPER)
     cubic = refined if form == k.FORM_REFINED else paper
     lower = [4 * i2 - 3 * i1 - i3, i2 - i1]
-    return np.select(
-        [degree == d for d in (k.DEGREE_CUBIC, k.DEGREE_QUADRATIC, k.DEGREE_LINEAR)], [cubic, *lower], 0
-    )
+    return np.select([degree == d for d in (k.DEGREE_CUBIC, k.DEGREE_QUADRATIC, k.DEGREE_LINEAR)], [cubic, *lower], 0)
 
 
 def coef_d(i1: ArrayLike) -> Int:
@@ -106,10 +100,10 @@ def horner_step(s: ArrayLike, t: ArrayLike, c: ArrayLike, *, t_f: int = k.T_F) -
 
 
 def horner(a: ArrayLike, b, c, d, t, *, t_f: int = k.T_F) -> Int:
-    """((A t + B) t + C) t + D with three guard bits, every product rounded (``shade_horner_pipe``, ``shade_horner_seq``).
+    """((A t + B) t + C) t + D with three guard bits (``shade_horner_pipe``, ``shade_horner_seq``).
 
-    Error at most 1/2 + 3/16 ulp: half an ulp of the guarded format after each of three products (t <= 1 does not amplify
-    them), half an ulp at the end.
+    Error at most 1/2 + 3/16 ulp: half an ulp of the guarded format after each of three products (t <= 1 does not
+    amplify them), half an ulp at the end.
 
     >>> int(horner(65536, 65536, 65536, 65536, 32768)) / 65536
     1.875
@@ -183,8 +177,8 @@ def poly_span(
     """The pixels of a sequence of spans (``shade_poly_span``): (pixels (P, 2) U0.16, index of their span (P,)).
 
     ``nodes`` (S, 2, 4) S1.16: of every span and channel (diffuse, specular) the intensities at the nodes of its degree,
-    t = 0 first; in direct mode those of its pixels. ``degree`` (S,) 0 .. 3, ``count`` (S,) pixels. Values are clamped to
-    [0, 1 - 2^-16]; spans with an error give no pixels.
+    t = 0 first; in direct mode those of its pixels. ``degree`` (S,) 0 .. 3, ``count`` (S,) pixels. Values are clamped
+    to [0, 1 - 2^-16]; spans with an error give no pixels.
 
     >>> poly_span([[[0, 32768, 0, 0], [16384, 16384, 0, 0]]], [1], [3])[0].tolist()
     [[0, 16384], [16384, 16384], [32768, 16384]]
@@ -193,9 +187,7 @@ def poly_span(
     degree, count = integers(degree, count)
     span, j = span_walk(degree, count, log2_max=log2_max)
     direct = np.flatnonzero(degree[span] == k.DEGREE_DIRECT)
-    a, b, c, d = (
-        v[span] for v in coef(degree[:, None], *np.moveaxis(nodes, -1, 0), nodes=node_set, form=form)
-    )
+    a, b, c, d = (v[span] for v in coef(degree[:, None], *np.moveaxis(nodes, -1, 0), nodes=node_set, form=form))
     d[direct] = nodes[span[direct], :, j[direct]]
     log2 = span_log2(count)[span, None]
     if evaluator == k.EVALUATOR_HORNER:
@@ -220,9 +212,7 @@ def pack_spans(nodes: ArrayLike, degree: ArrayLike, count: ArrayLike, tag: Array
         (degree, (1 << k.DEGREE_W) - 1, k.SPAN_DEGREE_LSB),
         (tag, (1 << k.TAG_W) - 1, k.SPAN_TAG_LSB),
     ]
-    words = np.zeros(
-        (len(nodes), k.SPAN_DATA_W // 32 + 1), np.uint64
-    )  # the last one takes a carry that is always 0
+    words = np.zeros((len(nodes), k.SPAN_DATA_W // 32 + 1), np.uint64)  # the last one takes a carry that is always 0
     for value, field_mask, lsb in fields:
         word, shift = divmod(lsb, 32)
         bits = (value & field_mask).astype(np.uint64) << np.uint64(shift)

@@ -1,4 +1,4 @@
-"""Write ``rtl/shade_pkg.sv`` from ``golden/contract.py``: ``python -m scripts.generate`` (``--check`` only compares)."""
+"""Write ``rtl/shade_pkg.sv`` from ``golden/contract.py``: ``python -m scripts.generate`` (``--check``: compare)."""
 
 from __future__ import annotations
 

@@ -21,9 +21,7 @@ from sim import verilate
 from sim.errors import UserError
 from sim.verilate import Port
 
-WORDS_MAX = (
-    64  # bits of a port that travel as one integer; wider ones as rows of uint32, least significant first
-)
+WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows of uint32, least significant first
 
 
 class SimulationError(Exception):
@@ -53,9 +51,9 @@ class Interface:
 def interface(ports: list[Port]) -> Interface:
     """Sort ports into an input channel, an output channel and status outputs.
 
-    A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel; otherwise all inputs but clock, reset
-    and handshakes are, with ``valid_i`` and ``ready_o`` if there. Outputs likewise with ``m_axis_<name>_*``, whose other
-    outputs are status, or ``valid_o`` and ``ready_i``.
+    A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel; otherwise all inputs but
+    clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there. Outputs likewise with ``m_axis_<name>_*``,
+    whose other outputs are status, or ``valid_o`` and ``ready_i``.
     """
     names = {port.name for port in ports}
     handshakes = {"clk_i", "rst_i", "valid_i", "ready_i", "valid_o", "ready_o"}
@@ -89,9 +87,7 @@ def _glue(ports: list[Port]) -> str:
     def collect(port: Port, index: int) -> str:
         if port.width <= WORDS_MAX:
             return f"  out[{index}].push_back(t.{port.name});\n"
-        return (
-            f"  for (int w = 0; w < {-(-port.width // 32)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
-        )
+        return f"  for (int w = 0; w < {-(-port.width // 32)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
 
     def setter(name: str, port: str | None) -> str:
         return f"void {name}(DUT& t, int v) {{ {f't.{port} = v;' if port else '(void)t; (void)v;'} }}\n"
@@ -155,7 +151,7 @@ class Run:
 
 
 class Model:
-    """A module at a parameter point. Every :meth:`run` starts from reset with random contents of what reset leaves alone."""
+    """A module at a parameter point. Every :meth:`run` starts from reset; what reset leaves alone is random."""
 
     def __init__(self, module: str, parameters: dict[str, int], *, waves: bool):
         library, self.ports = verilate.build(module, parameters, _glue, waves=waves)
@@ -176,13 +172,9 @@ class Model:
         if port.width > WORDS_MAX:
             words = -(-port.width // 32)
             return np.ascontiguousarray(np.broadcast_to(array, (rows, words)), np.uint32)
-        low, high = (
-            (-(1 << port.width - 1), (1 << port.width - 1) - 1) if port.signed else (0, (1 << port.width) - 1)
-        )
+        low, high = (-(1 << port.width - 1), (1 << port.width - 1) - 1) if port.signed else (0, (1 << port.width) - 1)
         if array.size and (array.min() < low or array.max() > high):
-            raise UserError(
-                f"{self.module}.{port.name}: {array.min()} .. {array.max()} given, allowed {low} .. {high}"
-            )
+            raise UserError(f"{self.module}.{port.name}: {array.min()} .. {array.max()} given, allowed {low} .. {high}")
         bits = np.broadcast_to(array, (rows,)).astype(np.int64, copy=False).view(np.uint64)
         if port.signed:
             bits = bits & np.uint64((1 << port.width) - 1)
@@ -201,17 +193,15 @@ class Model:
     ) -> Run:
         """Stream arrays through the module, one row a transfer.
 
-        ``inputs``: an array (rows,) or a number for every data input, by name; ports of more than 64 bits as (rows, words) of
-        uint32. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer. ``latency``: of a
-        module without ``valid_o``. The run ends ``drain`` clocks after the last event.
+        ``inputs``: an array (rows,) or a number for every data input, by name; ports of more than 64 bits as (rows,
+        words) of uint32. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer.
+        ``latency``: of a module without ``valid_o``. The run ends ``drain`` clocks after the last event.
         Raises UserError for missing, unknown or out-of-range inputs, SimulationError when the module stops.
         """
         face = self.interface
         names = [port.name for port in face.into.data]
         if set(inputs) != set(names):
-            raise UserError(
-                f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {', '.join(names)}"
-            )
+            raise UserError(f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {', '.join(names)}")
         rows = max([1, *(len(np.asarray(inputs[n])) for n in names if np.asarray(inputs[n]).ndim)])
         arrays = [self._input(port, inputs[port.name], rows) for port in face.into.data]
         pointers = (ctypes.c_void_p * max(1, len(arrays)))(*(array.ctypes.data for array in arrays))
@@ -233,9 +223,7 @@ class Model:
         def column(pointer: int | None, count: int) -> np.ndarray:
             if not count:
                 return np.zeros(0, np.uint64)
-            return np.ctypeslib.as_array(
-                ctypes.cast(pointer, ctypes.POINTER(ctypes.c_uint64)), (count,)
-            ).copy()
+            return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(ctypes.c_uint64)), (count,)).copy()
 
         taken = column(self._library.model_taken(session), self._library.model_taken_rows(session))
         if stopped:

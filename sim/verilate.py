@@ -130,9 +130,7 @@ def ports(module: str, parameters: dict[str, int], scratch: Path) -> list[Port]:
         if item["type"] == "VAR" and item.get("varType") == "PORT":
             dtype = types[item["dtypep"]]
             high, low = map(int, dtype.get("range", "0:0").split(":"))
-            found.append(
-                Port(item["name"], item["direction"].lower(), high - low + 1, bool(dtype.get("signed")))
-            )
+            found.append(Port(item["name"], item["direction"].lower(), high - low + 1, bool(dtype.get("signed"))))
     return found
 
 

@@ -1,0 +1,100 @@
+"""The planner: cuts a span into records that ``shade_poly_span`` draws, by one number (mathematics: the kappa ladder).
+
+Along an arc whose end normals have the dot product c, the error of interpolating cos^n depends on
+
+    kappa = n (1 - c)
+
+alone, and half the length has a quarter of it. So shifts and three comparisons choose the length of the segments, a power
+of two of pixels, and their degree:
+
+    k = largest with kappa(2^k) <= T3;   degree 1 if kappa(2^k) <= T1, 2 if <= T2, else 3
+
+Where not even 4 pixels are short enough, or a record has no more pixels than its polynomial has nodes, its pixels are lit
+directly. Integers: kappa and the thresholds are U11.20.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from golden import contract as k
+from golden.fixed import Int, integers
+from golden.poly import span_log2
+
+KAPPA_F = 20
+KAPPA_MAX = (1 << 31) - 1
+LOG2_MIN = 2  # nodes at a quarter of a segment are pixels: 4 pixels at least
+THRESHOLDS = tuple((sixty_fourths << KAPPA_F) >> 6 for sixty_fourths in (3, 24, 64))  # T1, T2, T3
+
+# position of node i in quarters of a segment, by degree (node set left)
+QUARTERS = np.array([[0, 0, 0, 0], [0, 4, 0, 0], [0, 2, 4, 0], [0, 1, 2, 4]])
+
+
+@dataclass(frozen=True)
+class Records:
+    """What the spans become: arrays (R,), ordered by span and start.
+
+    Pixel ``start`` .. ``start + count - 1`` of ``span`` lie at t = j / 2^log2. ``degree`` 0: lit directly.
+    """
+
+    span: Int
+    start: Int
+    count: Int
+    degree: Int
+    log2: Int
+
+    def __len__(self) -> int:
+        return len(self.span)
+
+    @property
+    def nodes(self) -> Int:
+        """(R, 4) position, in pixels from the span's start, of every node; unused ones repeat the first.
+
+        Every node lies on a pixel, so that neighbouring records share the node between them. (The last record of a span
+        may reach beyond its end: its last nodes continue the line of normals.)
+        """
+        steps = (QUARTERS[self.degree] << self.log2[:, None]) >> 2
+        pixels = np.minimum(np.arange(k.NODE_COUNT), self.count[:, None] - 1)
+        return self.start[:, None] + np.where(self.degree[:, None] == k.DEGREE_DIRECT, pixels, steps)
+
+
+def quantize_kappa(kappa: ArrayLike) -> Int:
+    """Real kappa to U11.20, to nearest, saturating."""
+    return np.clip(np.rint(np.asarray(kappa, float) * (1 << KAPPA_F)), 0, KAPPA_MAX).astype(np.int64)
+
+
+def plan(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS) -> Records:
+    """Records of spans of ``count`` pixels, 1 .. 4096, whose arc of 2^span_log2(count) pixels has ``kappa`` (U11.20).
+
+    >>> plan([20], [3 << 20]).count.tolist(), plan([20], [3 << 20]).degree.tolist()  # 3 -> two segments with 3/4 each
+    ([16, 4], [3, 2])
+    """
+    count, kappa = integers(count, kappa)
+    t1, t2, t3 = thresholds
+    whole = span_log2(count)
+    log2 = whole.copy()
+    while (shorter := (kappa >> 2 * (whole - log2) > t3) & (log2 > LOG2_MIN)).any():
+        log2 -= shorter
+    direct = kappa >> 2 * (whole - log2) > t3  # at 4 pixels a record, or because the span is that short
+    segments = np.maximum(np.where(direct, -(-count >> log2), -(-(count - 1) >> log2)), 1)
+
+    span = np.repeat(np.arange(count.size), segments)
+    index = np.arange(span.size) - np.repeat(np.cumsum(segments) - segments, segments)
+    start = index << log2[span]
+    last = index == segments[span] - 1
+    pixels = np.where(last, count[span] - start, 1 << log2[span])
+    own = span_log2(pixels)
+    local = kappa[span] >> 2 * (whole[span] - own)
+    degree = np.select([local <= t1, local <= t2], [k.DEGREE_LINEAR, k.DEGREE_QUADRATIC], k.DEGREE_CUBIC)
+    degree[direct[span] | (pixels <= degree + 1)] = k.DEGREE_DIRECT
+    return Records(span, start, pixels, degree, own)
+
+
+def plan_fixed(count: ArrayLike, degree: int) -> Records:
+    """One record a span, of one degree, as the paper has it; up to four pixels are lit directly."""
+    (count,) = integers(count)
+    degrees = np.where(count <= k.DIRECT_MAX, k.DEGREE_DIRECT, degree)
+    return Records(np.arange(count.size), np.zeros_like(count), count, degrees, span_log2(count))

@@ -1,0 +1,245 @@
+"""One frame through the RTL: mesh -> spans -> plan -> light at the nodes -> RTL -> z-buffer -> pictures and report.
+
+The light at the nodes is float64, quantized to S1.16; coefficients and every pixel come out of the Verilated
+``shade_poly_span``, and each is compared with the golden model, bit for bit.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from tqdm import tqdm
+
+import sim
+from golden import contract, plan, poly
+from golden.reference import light as reference
+from scripts import tools
+from sim.errors import UserError
+from sim.scene.camera import Camera
+from sim.scene.mesh import load_mesh
+from sim.scene.raster import Spans, expand, resolve, scan_convert
+
+FORMS = {"paper": contract.FORM_PAPER, "refined": contract.FORM_REFINED}
+EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
+RANGES = {"shininess": (1.0, 1024.0), "degree": (1, 3)}
+ONE = 1 << contract.INTENSITY_F
+TAGS = 1 << contract.TAG_W
+DIFFERENCE_GAIN = 256  # an error of 1/256, one step of an 8-bit picture, is white
+
+# what a material adds to the two intensities on their way into a picture
+AMBIENT, DIFFUSE, SPECULAR = 0.10, 0.80, 0.35
+SKIN = np.array([0.93, 0.70, 0.58])
+BACKGROUND = np.array([0.11, 0.12, 0.14])
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What to render and how. Raises UserError for a value out of range or unknown."""
+
+    mesh: str = "head"
+    subdivide: int = 0
+    camera: Camera = field(default_factory=Camera)
+    form: str = "refined"
+    evaluator: str = "horner"
+    model: str = "blinn"
+    shininess: float = 32.0
+    light: tuple[float, float, float] = (-0.5, 0.6, 0.8)
+    degree: int = 3  # of every span in form paper
+
+    def __post_init__(self) -> None:
+        for name, allowed in (("form", FORMS), ("evaluator", EVALUATORS), ("model", reference.MODELS)):
+            if getattr(self, name) not in allowed:
+                raise UserError(f"--{name}: {getattr(self, name)!r} is none of {', '.join(allowed)}")
+        for name, (low, high) in RANGES.items():
+            if not low <= getattr(self, name) <= high:  # also refuses NaN
+                raise UserError(f"--{name}: {getattr(self, name)} is out of range, allowed is {low} to {high}")
+        if not (np.isfinite(self.light).all() and 1e-6 < np.linalg.norm(self.light) < 1e6):
+            raise UserError(f"--light: {self.light} is no direction, allowed are finite numbers, not all of them 0")
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A rendered frame: intensities per place, from the RTL and from float64, and the report."""
+
+    visible: NDArray[np.int64]  # (size * size,) index of the pixel in stream order, -1: background
+    intensity: NDArray[np.float64]  # (P, 2) diffuse and specular of every pixel in stream order
+    exact: NDArray[np.float64]  # the same in float64
+    report: dict
+    size: int
+
+    def picture(self, intensity: NDArray[np.float64]) -> Image.Image:
+        """The intensities as a picture: ambient, diffuse and specular light on skin."""
+        colour = np.tile(BACKGROUND, (self.size * self.size, 1))
+        seen = self.visible >= 0
+        diffuse, specular = np.moveaxis(intensity[self.visible[seen]], -1, 0)
+        colour[seen] = (AMBIENT + DIFFUSE * diffuse[:, None]) * SKIN + SPECULAR * specular[:, None]
+        return Image.fromarray(np.rint(255 * colour.clip(0, 1)).astype(np.uint8).reshape(self.size, self.size, 3))
+
+    def difference(self) -> Image.Image:
+        """|RTL - float64| times DIFFERENCE_GAIN: diffuse in green, specular in red."""
+        colour = np.zeros((self.size * self.size, 3))
+        seen = self.visible >= 0
+        error = np.abs(self.intensity - self.exact)[self.visible[seen]]
+        colour[seen, 0], colour[seen, 1] = error[:, 1], error[:, 0]
+        levels = np.rint(255 * (DIFFERENCE_GAIN * colour).clip(0, 1))
+        return Image.fromarray(levels.astype(np.uint8).reshape(self.size, self.size, 3))
+
+    def save(self, folder: Path) -> None:
+        """image.png, reference.png, difference.png and report.json, all or none: they replace the folder's at the end."""
+        files = {
+            "image.png": self.picture(self.intensity),
+            "reference.png": self.picture(self.exact),
+            "difference.png": self.difference(),
+        }
+        scratch = folder.parent / f".{folder.name}.{os.getpid()}"
+        try:
+            scratch.mkdir(parents=True)
+            for name, image in files.items():
+                image.save(scratch / name)
+            (scratch / "report.json").write_text(json.dumps(self.report, indent=2) + "\n")
+            folder.mkdir(exist_ok=True)
+            for name in [*files, "report.json"]:
+                os.replace(scratch / name, folder / name)
+        except OSError as error:
+            raise UserError(f"--out {folder}: cannot be written ({error.strerror})") from error
+        finally:
+            shutil.rmtree(scratch, ignore_errors=True)
+
+
+def plan_spans(spans: Spans, settings: Settings) -> plan.Records:
+    """The records of a frame's spans; the paper's form has one a span, of a fixed degree."""
+    if settings.form == "paper":
+        return plan.plan_fixed(spans.count, settings.degree)
+    reach = (1 << poly.span_log2(spans.count))[:, None]
+    kappa = reference.kappa(settings.model, spans.normal, spans.normal + reach * spans.gradient, settings.shininess)
+    return plan.plan(spans.count, plan.quantize_kappa(kappa))
+
+
+def node_light(spans: Spans, records: plan.Records, settings: Settings) -> tuple[NDArray[np.int64], int]:
+    """Intensities (R, 2, 4) S1.16 at the nodes, and how often light was computed: once where neighbours share a node."""
+    nodes = records.nodes
+    unique, index = np.unique((records.span[:, None] << 32) + nodes, return_inverse=True)
+    span, position = unique >> 32, unique & 0xFFFFFFFF
+    normal = spans.normal[span] + position[:, None] * spans.gradient[span]
+    light = reference.light_channels(settings.model, normal, settings.light, settings.shininess)
+    return np.moveaxis(quantize(light)[index.reshape(nodes.shape)], -1, 1), len(unique)
+
+
+def quantize(intensity: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Intensity to S1.16, to nearest, saturating."""
+    limit = 1 << contract.INTENSITY_W - 1
+    return np.clip(np.rint(intensity * ONE), -limit, limit - 1).astype(np.int64)
+
+
+def render(settings: Settings) -> Frame:
+    """Render a frame through the RTL and compare it with the golden model and with float64.
+
+    ``report["mismatches"]`` counts the pixels whose value, tag or end-of-span mark differs from the golden model's;
+    ``report["first_mismatch"]`` tells the first of them.
+    """
+    began = time.perf_counter()
+    with tqdm(total=6, desc="load", disable=None, delay=2, leave=False) as bar:
+
+        def stage(name: str) -> None:
+            bar.update()
+            bar.set_description(name)
+
+        size = settings.camera.size
+        mesh = load_mesh(settings.mesh, settings.subdivide)
+        stage("scan")
+        spans = scan_convert(settings.camera.project(mesh), mesh.faces, size)
+        visible = resolve(spans, size)
+        stage("plan")
+        records = plan_spans(spans, settings)
+        nodes, evaluations = node_light(spans, records, settings)
+        tag = np.arange(len(records)) % TAGS
+        beats = poly.pack_spans(nodes, records.degree, records.count, tag)
+        stage("simulate")
+        model = sim.load("shade_poly_span", EVALUATOR=EVALUATORS[settings.evaluator], FORM=FORMS[settings.form])
+        simulated = time.perf_counter()
+        run = model.run(s_axis_span_tdata=beats) if len(records) else None
+        simulated = time.perf_counter() - simulated
+        stage("compare")
+        golden, owner = poly.poly_span(
+            nodes, records.degree, records.count, evaluator=EVALUATORS[settings.evaluator], form=FORMS[settings.form]
+        )
+        pixels, mismatch = _compare(run, golden, tag[owner], owner)
+        stage("reference")
+        every = expand(spans, size)
+        normal = spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
+        light = reference.light_channels(settings.model, normal, settings.light, settings.shininess)
+        exact = light.clip(0, 1)
+
+    intensity = pixels / ONE
+    cycles = run.clocks if run else 0
+    report = {
+        "mesh": settings.mesh,
+        "size": size,
+        "form": settings.form,
+        "path": "poly",
+        "evaluator": settings.evaluator,
+        "model": settings.model,
+        "shininess": settings.shininess,
+        "triangles": len(mesh.faces),
+        "repairs": mesh.repairs,
+        "spans": len(spans),
+        "records": len(records),
+        "pixels": len(golden),
+        "visible_pixels": int((visible >= 0).sum()),
+        **mismatch,
+        "cycles": cycles,
+        "pixels_per_cycle": len(golden) / cycles if cycles else None,
+        "light_evaluations": evaluations,
+        "light_evaluations_per_pixel": evaluations / len(golden) if len(golden) else None,
+        **errors(intensity, exact, visible),
+        "simulated_pixels_per_second": len(golden) / simulated if run else None,
+        "wall_seconds": time.perf_counter() - began,
+        "versions": tools.versions(),
+    }
+    return Frame(visible, intensity, exact, report, size)
+
+
+def _compare(run: sim.Run | None, golden, tag, owner) -> tuple[NDArray[np.int64], dict]:
+    """The RTL's pixels (P, 2), and ``mismatches`` with the first one in words."""
+    if run is None:
+        return golden, {"mismatches": 0}
+    last = np.r_[owner[1:] != owner[:-1], True].astype(np.int64)
+    expected = golden[:, 0] | golden[:, 1] << contract.PIXEL_W | tag << 32 | last << 48
+    actual = run.m_axis_pixel_tdata | run.m_axis_pixel_tuser << 32 | run.m_axis_pixel_tlast << 48
+    shared = min(len(expected), len(actual))
+    wrong = np.flatnonzero(expected[:shared] != actual[:shared])
+    result: dict = {"mismatches": len(wrong) + abs(len(expected) - len(actual))}
+    if result["mismatches"]:
+        at = int(wrong[0]) if len(wrong) else shared
+        hexadecimal = [f"{beats[at]:#015x}" if at < len(beats) else "none" for beats in (expected, actual)]
+        result["first_mismatch"] = {"pixel": at, "expected": hexadecimal[0], "actual": hexadecimal[1]}
+    pixels = np.zeros_like(golden)
+    pixels[:shared, 0] = actual[:shared] & 0xFFFF
+    pixels[:shared, 1] = actual[:shared] >> contract.PIXEL_W & 0xFFFF
+    return pixels, result
+
+
+def errors(intensity, exact, visible) -> dict[str, float | None]:
+    """NMSE = sum (I - Iref)^2 / sum Iref^2 over the visible pixels, of both channels and of each; PSNR for peak 1."""
+    seen = visible[visible >= 0]
+    error, signal = (intensity - exact)[seen] ** 2, exact[seen] ** 2
+
+    def ratio(numerator: float, denominator: float) -> float | None:
+        return float(numerator / denominator) if denominator else None
+
+    mean = error.mean() if len(seen) else 0
+    return {
+        "nmse": ratio(error.sum(), signal.sum()),
+        "nmse_diffuse": ratio(error[:, 0].sum(), signal[:, 0].sum()),
+        "nmse_specular": ratio(error[:, 1].sum(), signal[:, 1].sum()),
+        "psnr_db": float(-10 * np.log10(mean)) if mean else None,
+        "max_error": float(np.sqrt(error.max())) if len(seen) else 0.0,
+    }

@@ -1,0 +1,147 @@
+"""The lint itself: every rule bites on a module that breaks it, and on nothing else."""
+
+from pathlib import Path
+
+import pytest
+
+from scripts import lint
+
+GOOD = """\
+// shade_toy: y = x + 1.
+//
+// Latency 1 clock, one value a clock. Example: 1 -> 2.
+module shade_toy #(
+  parameter int W = 4
+) (
+  input  logic         clk_i,
+  input  logic [W-1:0] x_i,
+  output logic [W-1:0] y_o
+);
+  if (W < 2) begin : g_check
+    $error("shade_toy: W must be at least 2");
+  end
+  localparam int TWO_W = 2 * W;  // arithmetic of constants is no hardware
+  logic [TWO_W-1:0] sum_q;
+  always_ff @(posedge clk_i) sum_q <= TWO_W'(x_i) + TWO_W'(1);
+  assign y_o = sum_q[W-1:0];
+  logic unused;
+  assign unused = |sum_q[TWO_W-1:W];
+endmodule
+"""
+
+
+@pytest.fixture
+def toy(tmp_path, monkeypatch) -> Path:
+    """A repository of one good module; returns the file."""
+    path = tmp_path / "rtl" / "fixed" / "shade_toy.sv"
+    path.parent.mkdir(parents=True)
+    path.write_text(GOOD)
+    (tmp_path / "rtl" / "lint.vlt").write_text("`verilator_config\n")
+    (tmp_path / "rtl" / "shade.f").write_text("rtl/fixed/shade_toy.sv\n")
+    (tmp_path / "rtl" / "README.md").write_text("| `shade_toy` | x + 1 | `golden.contract.FORM_PAPER` |\n")
+    bench = tmp_path / "tb" / "fixed" / "test_toy.py"
+    bench.parent.mkdir(parents=True)
+    bench.touch()
+    for name, value in {
+        "ROOT": tmp_path,
+        "RTL": tmp_path / "rtl",
+        "CATALOGUE": tmp_path / "rtl" / "README.md",
+        "BUILD": tmp_path / "build",
+        "sources": lambda: [path],
+    }.items():
+        monkeypatch.setattr(lint, name, value)
+    return path
+
+
+def test_a_good_module_passes(toy: Path) -> None:
+    """No rule complains; a point out of range is refused in words."""
+    assert lint.mirror("shade_toy", toy) == []
+    assert lint.verilator("shade_toy", {}) == []
+    assert lint.verilator("shade_toy", {"W": 9}) == []
+    assert lint.yosys("shade_toy", {"W": 9}) == []
+    assert lint.refused("shade_toy", {"W": 1}) == []
+
+
+def test_a_point_that_is_accepted_is_told(toy: Path) -> None:
+    """A module that forgets its check."""
+    assert lint.refused("shade_toy", {"W": 2}) == ["shade_toy[W=2]: accepted, or refused without words"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("<= TWO_W'(x_i) + TWO_W'(1)", "<= TWO_W'(x_i) * TWO_W'(x_i)", "selection is not empty"),
+        ("<= TWO_W'(x_i) + TWO_W'(1)", "<= TWO_W'(x_i) / TWO_W'(3)", "selection is not empty"),
+        ("always_ff @(posedge clk_i) sum_q <=", "always @* if (x_i[0]) sum_q =", "selection is not empty"),
+        ("assign y_o = sum_q[W-1:0]", "assign y_o = y_o ^ sum_q[W-1:0]", "Found 4 problems"),
+        ("endmodule", "", "syntax error"),
+    ],
+    ids=["multiplier", "divider", "latch", "loop", "syntax"],
+)
+def test_yosys_rules(toy: Path, old: str, new: str, fault: str) -> None:
+    """A multiplier, a divider, a latch, a combinational loop and broken text."""
+    toy.write_text(GOOD.replace(old, new))
+    faults = lint.yosys("shade_toy", {})
+    assert len(faults) == 1 and fault in faults[0]
+
+
+def test_verilator_rules(toy: Path) -> None:
+    """A width that does not fit, and a signal that nobody reads."""
+    toy.write_text(GOOD.replace("assign y_o = sum_q[W-1:0]", "assign y_o = sum_q"))
+    assert "WIDTHTRUNC" in "\n".join(lint.verilator("shade_toy", {}))
+    toy.write_text(GOOD.replace("  logic unused;\n  assign unused = |sum_q[TWO_W-1:W];\n", ""))
+    assert "UNUSEDSIGNAL" in "\n".join(lint.verilator("shade_toy", {}))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("module shade_toy", "module shade_other", "must hold the one module shade_toy"),
+        ("// shade_toy: y", "// y", "must open with the comment"),
+        ("Latency 1 clock", "1 clock", "no 'Latency|Combinational' in its header"),
+        ("Example", "As", "no 'Example' in its header"),
+    ],
+)
+def test_header_rules(toy: Path, old: str, new: str, fault: str) -> None:
+    """Name of the module, first line, latency and example of the header."""
+    toy.write_text(GOOD.replace(old, new, 1))
+    faults = lint.mirror("shade_toy", toy)
+    assert len(faults) == 1 and fault in faults[0]
+
+
+@pytest.mark.parametrize(
+    ("row", "fault"),
+    [
+        ("", "no row for shade_toy"),
+        ("| `shade_toy` | x + 1 |", "names no golden twin"),
+        ("| `shade_toy` | `golden.contract.nothing` |", "golden.contract.nothing does not exist"),
+        ("| `shade_toy` | `golden.nothing.here` |", "golden.nothing.here does not exist"),
+    ],
+)
+def test_catalogue_rules(toy: Path, row: str, fault: str) -> None:
+    """A row for every module, with a golden twin that exists."""
+    lint.CATALOGUE.write_text(row + "\n")
+    faults = lint.mirror("shade_toy", toy)
+    assert len(faults) == 1 and fault in faults[0]
+
+
+def test_a_module_without_bench_is_told(toy: Path) -> None:
+    """The place where the bench should be is named."""
+    (toy.parents[2] / "tb" / "fixed" / "test_toy.py").unlink()
+    assert lint.mirror("shade_toy", toy) == ["tb/fixed/test_toy.py: missing, the bench of shade_toy"]
+
+
+def test_file_list_rules(toy: Path, monkeypatch) -> None:
+    """Missing, unlisted and doubly listed files, and a package that is not first."""
+    assert lint.file_list() == ["rtl/fixed/shade_toy.sv: first, but the package comes first"]
+    package, absent = toy.parents[1] / "shade_pkg.sv", toy.with_name("shade_absent.sv")
+    package.touch()
+    monkeypatch.setattr(lint, "sources", lambda: [package, toy])
+    assert lint.file_list() == []
+    monkeypatch.setattr(lint, "sources", lambda: [package, absent])
+    assert lint.file_list() == [
+        "rtl/fixed/shade_absent.sv: listed, but missing",
+        "rtl/fixed/shade_toy.sv: not listed",
+    ]
+    monkeypatch.setattr(lint, "sources", lambda: [package, toy, toy])
+    assert lint.file_list() == ["rtl/fixed/shade_toy.sv: listed twice"]

@@ -1,0 +1,128 @@
+"""Synthesis: every module maps to an ECP5, and the figures that the product promises hold.
+
+``make synth`` measures everything; here one placer seed of the modules with a promise is enough, the margins are wide.
+"""
+
+import json
+
+import pytest
+
+from scripts import synth, tools
+from sim.errors import UserError
+
+
+@pytest.fixture(autouse=True)
+def work(tmp_path, monkeypatch) -> None:
+    """Keep the kept results of ``make synth`` out of the tests, and the tests out of them."""
+    monkeypatch.setattr(synth, "WORK", tmp_path)
+    monkeypatch.setattr(synth, "OUT", tmp_path / "synth.json")
+
+
+def fast(name: str) -> dict[str, float]:
+    """Area and clock rate of a module at its default parameters on an ECP5, with one seed."""
+    design = synth.designs([name])[0]
+    synth.elaborate(design)
+    result = synth.synthesize(design, "ecp5")
+    result["lut"], result["fmax_mhz"] = synth.place_and_route(design.folder / "ecp5", seeds=(1,))
+    return result
+
+
+@pytest.mark.parametrize("design", synth.designs(list(synth.modules())), ids=lambda design: design.name)
+def test_every_module_maps(design: synth.Design) -> None:
+    """Every module and variant synthesizes; only what multiplies takes DSP blocks."""
+    synth.elaborate(design)
+    result = synth.synthesize(design, "ecp5")
+    assert result["lut"] + result["ff"] + result["dsp"] > 0
+    multiplies = any(f"shade_{part}" in design.name for part in ("mul", "horner", "poly_span"))
+    if not multiplies or design.point.get("EVALUATOR") == 1:
+        assert result["dsp"] == 0
+
+
+def test_coefficients_against_the_naive_form() -> None:
+    """shade_coef: no DSP, at least 5 times the clock rate of ``*`` and ``/ 3`` in one step, at no more LUTs."""
+    ours, naive = fast("shade_coef"), fast("yardstick_coef")
+    assert ours["dsp"] == 0
+    assert ours["fmax_mhz"] >= 5 * naive["fmax_mhz"]
+    assert ours["lut"] <= naive["lut"]
+
+
+def test_horner_against_a_bare_multiplier() -> None:
+    """shade_horner_pipe: at least 0.8 of the clock rate of a registered 18 x 18 multiplier."""
+    assert fast("shade_horner_pipe")["fmax_mhz"] >= 0.8 * fast("yardstick_multiplier")["fmax_mhz"]
+
+
+def test_harness_registers_every_port() -> None:
+    """Inputs and outputs get a register each, the clock is passed on, a module without one gets it."""
+    ports = {
+        "clk_i": {"direction": "input", "bits": [2]},
+        "a_i": {"direction": "input", "bits": [3, 4]},
+        "y_o": {"direction": "output", "bits": [5]},
+    }
+    text = synth.harness(ports)
+    assert "always @(posedge clk_i) a_i_q <= a_i;" in text
+    assert "always @(posedge clk_i) y_o_q <= y_o_d;" in text
+    assert "unit u_unit (.clk_i(clk_i), .a_i(a_i_q), .y_o(y_o_d));" in text
+    assert ".clk_i(" not in synth.harness({"a_i": ports["a_i"]})
+
+
+@pytest.mark.parametrize(
+    ("family", "cells", "expected"),
+    [
+        ("ecp5", {"LUT4": 3, "CCU2C": 2, "PFUMX": 9, "L6MUX21": 9, "TRELLIS_DPR16X4": 1}, (13, 0, 0, 0)),
+        ("ecp5", {"TRELLIS_FF": 5, "MULT18X18D": 2, "DP16KD": 1, "PDPW16KD": 1}, (0, 5, 2, 2)),
+        ("ice40", {"SB_LUT4": 4, "SB_CARRY": 4, "SB_DFFSR": 2, "SB_MAC16": 1, "SB_RAM40_4K": 3}, (4, 2, 1, 3)),
+        ("gowin", {"LUT3": 2, "ALU": 8, "MUX2_LUT5": 5, "DFFRE": 4, "MULT18X18": 1, "SDPB": 1}, (10, 4, 1, 1)),
+        ("xilinx7", {"LUT6": 2, "CARRY4": 3, "MUXF7": 1, "SRL16E": 2, "RAM32M": 1, "FDRE": 7}, (8, 7, 0, 0)),
+        ("xilinx7", {"DSP48E1": 2, "RAMB18E1": 1, "RAMB36E1": 1}, (0, 0, 2, 3)),
+    ],
+)
+def test_count(family: str, cells: dict[str, int], expected: tuple[int, ...]) -> None:
+    """Cells count for what they occupy; wide multiplexers and carry chains for nothing of their own."""
+    assert tuple(synth.count(family, cells)[part] for part in ("lut", "ff", "dsp", "bram")) == expected
+
+
+def test_report(monkeypatch) -> None:
+    """The report has the four families, the ECP5's LUTs and clock rate are nextpnr's."""
+    monkeypatch.setattr(synth, "place_and_route", lambda folder: (7, 123.4))
+    report = synth.main(["shade_round"])
+    assert report == json.loads(synth.OUT.read_text())
+    assert list(report["shade_round"]) == ["ecp5", "ice40", "gowin", "xilinx7"]
+    assert report["shade_round"]["ecp5"] == {"lut": 7, "ff": 0, "dsp": 0, "bram": 0, "fmax_mhz": 123.4}
+    assert report["shade_round"]["xilinx7"]["fmax_mhz"] is None
+
+
+def test_kept_results(monkeypatch) -> None:
+    """An unchanged netlist is not synthesized again, not even at another place in its file; a changed one is."""
+    monkeypatch.setattr(synth, "place_and_route", lambda folder: (7, 123.4))
+    runs = []
+    monkeypatch.setattr(synth, "synthesize", lambda *given: runs.append(given) or {"lut": 0})
+    design = synth.designs(["shade_round"])[0]
+    netlist = synth.elaborate(design)
+    file = synth.modules()["shade_round"]
+    moved = synth.WORK / file.name
+    moved.write_text("// moved\n" + file.read_text())
+    files = [moved if path == file else path for path in design.files]
+    assert synth.elaborate(synth.Design("shade_round", {}, files)) == netlist
+
+    for _ in range(2):
+        assert synth.measure(design, "ecp5", netlist) == {"lut": 7, "fmax_mhz": 123.4}
+    assert len(runs) == 1
+    synth.measure(design, "ecp5", netlist + " ")
+    monkeypatch.setattr(synth, "SEEDS", (1,))
+    synth.measure(design, "ecp5", netlist + " ")
+    assert len(runs) == 3
+
+
+def test_unknown_module() -> None:
+    """A name that is none is refused with the names that are."""
+    with pytest.raises(UserError, match="shade_nothing: no such module, allowed shade_"):
+        synth.main(["shade_nothing"])
+
+
+def test_a_tool_that_fails_tells_its_cause(tmp_path) -> None:
+    """The message of the tool and the place of its log, in one line."""
+    with pytest.raises(UserError, match=r"yosys.log: ERROR: No such command: nonsense"):
+        tools.yosys("nonsense", tmp_path)
+    assert (tmp_path / "yosys.log").exists()
+    with pytest.raises(UserError, match=r"nextpnr-ecp5.log: "):
+        tools.nextpnr_ecp5(["--json", "absent.json"], tmp_path)

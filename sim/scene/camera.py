@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-MARGIN = 0.04
+MARGIN = 0.02
 """Free part of the frame on each side of the mesh at zoom 1."""
 
 PROJECTIONS = ("orthographic", "perspective")
@@ -60,8 +60,8 @@ class Camera:
 
     size: int = 1024
     projection: str = "orthographic"
-    yaw: float = 0.0
-    pitch: float = 0.0
+    yaw: float = 30.0
+    pitch: float = 5.0
     zoom: float = 1.0
     field_of_view: float = 30.0
 

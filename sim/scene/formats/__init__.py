@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 import trimesh
@@ -36,6 +37,13 @@ _CHECKS: dict[str, Callable[[bytes, Path], Checked]] = {
 
 LARGEST_FILE = 1 << 30
 """Bytes; a larger file is refused before it is read."""
+
+
+class _Beside(trimesh.resolvers.FilePathResolver):
+    """Finds the files that a glTF file refers to by percent-encoded names, in its own folder or below."""
+
+    def get(self, name: str) -> bytes:
+        return super().get(unquote(name))
 
 
 @dataclass(frozen=True)
@@ -87,9 +95,9 @@ def _read(checked: Checked, suffix: str, path: Path) -> Surface:
     """Let trimesh read the file, then place and join the parts of its scene."""
     options: dict[str, Any] = {"process": False}
     if suffix in ("gltf", "glb"):
-        options |= {"skip_materials": True, "resolver": trimesh.resolvers.FilePathResolver(str(path))}
+        options |= {"skip_materials": True, "resolver": _Beside(str(path))}
     if suffix == "ply":
-        options |= {"fix_texture": False}  # which would split vertices along the seams of a texture
+        options |= {"skip_materials": True, "fix_texture": False}  # vertices stay whole along the seams of a texture
     scene = trimesh.load_scene(io.BytesIO(checked.data), file_type=suffix, **options)
 
     vertices, faces, normals, count = [], [], [], 0

@@ -1,0 +1,1 @@
+"""The host's side of the renderer: mesh, camera, scan conversion into spans, z-buffer."""

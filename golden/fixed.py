@@ -1,7 +1,7 @@
 """Fixed-point steps that every unit shares: round, saturate, multiply, a third.
 
-Mirrors ``rtl/fixed``. All arguments and results are ``int64`` arrays of any shape (or Python integers); x with f fraction
-bits stands for x / 2^f.
+Mirrors ``rtl/fixed``. All arguments and results are ``int64`` arrays of any shape (or Python integers); x with f
+fraction bits stands for x / 2^f.
 """
 
 from __future__ import annotations

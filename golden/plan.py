@@ -4,13 +4,13 @@ Along an arc whose end normals have the dot product c, the error of interpolatin
 
     kappa = n (1 - c)
 
-alone, and half the length has a quarter of it. So shifts and three comparisons choose the length of the segments, a power
-of two of pixels, and their degree:
+alone, and half the length has a quarter of it. So shifts and three comparisons choose the length of the segments, a
+power of two of pixels, and their degree:
 
     k = largest with kappa(2^k) <= T3;   degree 1 if kappa(2^k) <= T1, 2 if <= T2, else 3
 
-Where not even 4 pixels are short enough, or a record has no more pixels than its polynomial has nodes, its pixels are lit
-directly. Integers: kappa and the thresholds are U11.20.
+Where not even 4 pixels are short enough, or a record has no more pixels than its polynomial has nodes, its pixels
+are lit directly. Integers: kappa and the thresholds are U11.20.
 """
 
 from __future__ import annotations

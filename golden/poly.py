@@ -51,8 +51,8 @@ def coef_b(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT) -> I
 def coef_c(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
     """C of the cubic, the parabola or the line; 0 for degree 0 (``shade_coef_c``). |C| <= 30 max|I|.
 
-    Left: (32 I2 + I4 - 21 I1 - 12 I3)/3, right: (36 I2 + 9 I4 - 13 I1 - 32 I3)/3, to nearest; degree 2: 4 I2 - 3 I1 - I3;
-    degree 1: I2 - I1.
+    Left: (32 I2 + I4 - 21 I1 - 12 I3)/3, right: (36 I2 + 9 I4 - 13 I1 - 32 I3)/3, to nearest;
+    degree 2: 4 I2 - 3 I1 - I3; degree 1: I2 - I1.
 
     >>> int(coef_c(3, 0, 16384, 32768, 65536))  # the nodes of t
     65536

@@ -93,7 +93,7 @@ class Frame:
         return Image.fromarray(levels.astype(np.uint8).reshape(self.size, self.size, 3))
 
     def save(self, folder: Path) -> None:
-        """image.png, reference.png, difference.png and report.json, all or none: they replace the folder's at the end."""
+        """image.png, reference.png, difference.png and report.json, all or none."""
         files = {
             "image.png": self.picture(self.intensity),
             "reference.png": self.picture(self.exact),
@@ -124,7 +124,10 @@ def plan_spans(spans: Spans, settings: Settings) -> plan.Records:
 
 
 def node_light(spans: Spans, records: plan.Records, settings: Settings) -> tuple[NDArray[np.int64], int]:
-    """Intensities (R, 2, 4) S1.16 at the nodes, and how often light was computed: once where neighbours share a node."""
+    """Intensities (R, 2, 4) S1.16 at the nodes, and how often light was computed.
+
+    Once where neighbours share a node.
+    """
     nodes = records.nodes
     unique, index = np.unique((records.span[:, None] << 32) + nodes, return_inverse=True)
     span, position = unique >> 32, unique & 0xFFFFFFFF

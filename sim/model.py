@@ -52,8 +52,8 @@ def interface(ports: list[Port]) -> Interface:
     """Sort ports into an input channel, an output channel and status outputs.
 
     A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel; otherwise all inputs but
-    clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there. Outputs likewise with ``m_axis_<name>_*``,
-    whose other outputs are status, or ``valid_o`` and ``ready_i``.
+    clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there. Outputs likewise with
+    ``m_axis_<name>_*``, whose other outputs are status, or ``valid_o`` and ``ready_i``.
     """
     names = {port.name for port in ports}
     handshakes = {"clk_i", "rst_i", "valid_i", "ready_i", "valid_o", "ready_o"}

@@ -1,6 +1,7 @@
 """Light at a point in float64: Lambert, Phong and Blinn-Phong (paper P1, section II).
 
-Directional light, viewer at infinity, camera space: x right, y up, z towards the viewer. Normals (..., 3) of any length.
+Directional light, viewer at infinity, camera space: x right, y up, z towards the viewer. Normals (..., 3) of any
+length.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 """``make units``: every unit, both forms, measured over many vectors; left in ``build/units.json``.
 
-    {"<module>/<form>": {vectors, exhaustive, mismatches, max_error_ulp, max_error_ideal, worst_input, latency, throughput}}
+    {"<module>/<form>": {vectors, exhaustive, mismatches, max_error_ulp, max_error_ideal, worst_input, latency,
+                         throughput}}
 
-All parameter points of a unit are taken together. ``exhaustive``: no point left a possible input out. ``max_error_ulp``:
-against the exact value of the unit's formula on its inputs, in its last bit; ``max_error_ideal``: against the function
+All parameter points of a unit are taken together. ``exhaustive``: no point left a possible input out.
+``max_error_ulp``: against the exact value of the unit's formula on its inputs, in its last bit; ``max_error_ideal``: against the function
 that the formula approximates, as a number. ``latency`` in clocks, ``throughput`` in results a clock.
 """
 
@@ -67,9 +68,7 @@ def main(vectors: int = 1_000_000, seed: int = 1) -> int:
     report, faults = measure(vectors, seed)
     OUT.parent.mkdir(parents=True, exist_ok=True)
     OUT.write_text(json.dumps(report, indent=2) + "\n")
-    print(
-        f"{'unit':42} {'vectors':>11} {'mismatches':>10} {'error/ulp':>9} {'error/ideal':>11} {'latency':>7} {'per clock':>9}"
-    )
+    print(f"{'unit':42} {'vectors':>11} {'mismatches':>10} {'ulp':>9} {'ideal':>11} {'latency':>7} {'per clock':>9}")
     for name, r in report.items():
         print(
             f"{name:42} {r['vectors']:11,} {r['mismatches']:10} {r['max_error_ulp']:9.4f} {r['max_error_ideal']:11.2e} "

@@ -1,4 +1,4 @@
-"""Every unit against its golden model over all vectors of reduced widths and millions at full width, and its error bound.
+"""Every unit against its golden model: all vectors of reduced widths, millions at full width; and its error bound.
 
 The vectors, the golden twin and the exact value of each formula stand in ``sim/units.py``.
 """

@@ -1,0 +1,1 @@
+"""Benches of the RTL and tests of everything else, in folders that mirror what they test."""

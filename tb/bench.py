@@ -1,0 +1,260 @@
+"""What the cocotb benches share: clock, reset, scoreboard; pipelines of fixed latency; streams with gaps and stalls.
+
+Time is counted in clocks; a clock ends with a rising edge. What a bench reads after ``await bench.tick()`` are the
+values at the end of the clock that is over; what it writes then holds through the next one. So an input written for
+clock n shows at an output of latency L when clock n + L is over.
+"""
+
+import functools
+import random
+import re
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+import cocotb
+import numpy as np
+from cocotb.clock import Clock
+from cocotb.handle import HierarchyObject, ValueObjectBase
+from cocotb.simtime import get_sim_time
+from cocotb.triggers import FallingEdge, RisingEdge, Timer
+from numpy.typing import ArrayLike
+
+PERIOD = 10  # of the clock, in ns
+PATIENCE = 200_000  # clocks after which a test is over
+
+TRAFFIC = {"gap": [0.0, 0.5], "reset": [0.0, 0.02]}
+"""What a pipeline must stand: rows on every clock or with gaps, resets in the middle."""
+PRESSURE = {"gap": [0.0, 0.5], "stall": [0.0, 0.5]}
+"""What a stream must stand: a source that pauses or not, a sink that does or not."""
+
+
+class Mismatch(AssertionError):
+    """The module does something else than expected."""
+
+
+def checked(**options: Sequence) -> Callable:
+    """A cocotb test for every combination of the options; it fails if it compared nothing.
+
+    The coroutine gets a :class:`Bench` after reset instead of the bare module:
+
+    >>> @checked(gap=[0.0, 0.5])
+    ... async def stream(bench, gap): ...
+    """
+
+    def decorate(coroutine: Callable) -> object:
+        @functools.wraps(coroutine)
+        async def test(dut: HierarchyObject, **chosen: object) -> None:
+            bench = Bench(dut)
+            await bench.start()
+            await coroutine(bench, **chosen)
+            if not bench.checks:
+                raise Mismatch("nothing was checked")
+
+        return cocotb.test(timeout_time=PATIENCE * PERIOD, timeout_unit="ns")(cocotb.parametrize(**options)(test))
+
+    return decorate
+
+
+class Bench:
+    """A module under test. ``rng`` is NumPy's generator, seeded for this test, as ``random`` is by cocotb."""
+
+    def __init__(self, dut: HierarchyObject):
+        self.dut = dut
+        self.rng = np.random.default_rng(cocotb.RANDOM_SEED)
+        self.checks = 0
+
+    @property
+    def clock(self) -> int:
+        """Number of the clock that is over."""
+        return int(get_sim_time("ns")) // PERIOD
+
+    def parameter(self, name: str) -> int:
+        """A parameter of the module."""
+        return int(getattr(self.dut, name).value)
+
+    def bits(self, name: str) -> int:
+        """Width of a port."""
+        return len(getattr(self.dut, name))
+
+    def signed(self, bits: int, rows: int) -> np.ndarray:
+        """Signed numbers (rows,): one in four is extreme, 0, or next to one of these; the others are random."""
+        low, high = -(1 << bits - 1), (1 << bits - 1) - 1
+        corners = self.rng.choice([low, low + 1, -1, 0, 1, high - 1, high], rows)
+        return np.where(self.rng.random(rows) < 0.25, corners, self.rng.integers(low, high, rows, endpoint=True))
+
+    async def start(self) -> None:
+        """Start the clock and reset the module, with random bits at its inputs and nothing offered."""
+        for port in self.dut:
+            if re.search("^(valid|ready)_i$|^s_axis_.*_tvalid$|^m_axis_.*_tready$", port._name):
+                port.value = 0
+            elif re.search("(?<!clk)_i$|^s_axis_.*_tdata$", port._name):
+                scramble(port)
+        if hasattr(self.dut, "clk_i"):
+            Clock(self.dut.clk_i, PERIOD, "ns").start()
+        await self.reset()
+
+    async def reset(self, clocks: int = 2) -> None:
+        """Hold the module in reset, if it has one, for so many clocks."""
+        if hasattr(self.dut, "rst_i"):
+            self.dut.rst_i.value = 1
+            await self.tick(clocks)
+            self.dut.rst_i.value = 0
+
+    async def tick(self, clocks: int = 1) -> None:
+        """Wait until this clock is over, or so many."""
+        for _ in range(clocks):
+            await (RisingEdge(self.dut.clk_i) if hasattr(self.dut, "clk_i") else Timer(PERIOD, "ns"))
+
+    async def until(self, condition: Callable[[], bool], clocks: int, what: str) -> None:
+        """Wait until a condition holds; raise Mismatch when it does not within so many clocks."""
+        for _ in range(clocks):
+            if condition():
+                return
+            await self.tick()
+        raise Mismatch(f"{what}: not within {clocks} clocks (clock {self.clock})")
+
+    def equal(self, actual: int, expected: int, what: str, bits: int = 32) -> None:
+        """Count a comparison of two patterns of so many bits; raise Mismatch with both in hex unless equal."""
+        self.checks += 1
+        if actual != expected:
+            digits, mask = -(-bits // 4), (1 << bits) - 1
+            shown, wanted = (f"0x{value & mask:0{digits}x}" for value in (actual, expected))
+            raise Mismatch(f"{what} is {shown}, expected {wanted} (clock {self.clock})")
+
+    async def pipeline(
+        self,
+        inputs: Mapping[str, ArrayLike],
+        outputs: Mapping[str, ArrayLike],
+        latency: int,
+        *,
+        gap: float = 0.0,
+        reset: float = 0.0,
+        late: Mapping[str, int] | None = None,
+    ) -> None:
+        """Send rows through a pipeline of fixed latency and check all outputs on every clock.
+
+        ``inputs``, ``outputs``: by port, numbers (rows,). ``gap``: probability of a clock without a row, with random
+        bits at the inputs; ``reset``: of a clock in reset, which loses what is in the pipeline. ``late``: inputs that
+        are taken so many clocks after the others. ``valid_i``, ``valid_o``, ``rst_i`` are served if there.
+        """
+        dut, late = self.dut, late or {}
+        entries = [(getattr(dut, name), patterns(getattr(dut, name), values)) for name, values in inputs.items()]
+        exits = [(getattr(dut, name), patterns(getattr(dut, name), values)) for name, values in outputs.items()]
+        valid, resettable = hasattr(dut, "valid_i"), hasattr(dut, "rst_i")
+
+        waiting = deque(range(len(entries[0][1])))
+        sent: list[int | None] = [None] * (latency + 1)  # the row of every clock so far
+        while waiting or any(row is not None for row in sent[-latency - 3 :]):
+            sent.append(waiting.popleft() if waiting and random.random() >= gap else None)
+            in_reset = resettable and bool(waiting) and random.random() < reset
+            for port, values in entries:
+                row = sent[-1 - late.get(port._name, 0)]
+                port.value = random.getrandbits(len(port)) if row is None else values[row]
+            if valid:
+                dut.valid_i.value = sent[-1] is not None
+            if resettable:
+                dut.rst_i.value = in_reset
+            await self.tick()
+
+            row = sent[-1 - latency]
+            if valid:
+                self.equal(int(dut.valid_o.value), row is not None, f"row {row}: valid_o", 1)
+            if row is not None:
+                given = ", ".join(f"{port._name} = {values[row]:#x}" for port, values in entries)
+                for port, values in exits:
+                    self.equal(int(port.value), values[row], f"row {row} ({given}): {port._name}", len(port))
+            if in_reset:
+                sent = [None] * len(sent)
+
+
+class Source:
+    """Sends words into a valid/ready channel of a module; ``clocks`` tells when each was taken.
+
+    ``payload``: the names of the data ports; a word is a tuple of their bits.
+    """
+
+    def __init__(self, bench: Bench, valid: str, ready: str, payload: Sequence[str]):
+        self.bench = bench
+        self.clocks: list[int] = []
+        self._valid, self._ready = getattr(bench.dut, valid), getattr(bench.dut, ready)
+        self._payload = [getattr(bench.dut, name) for name in payload]
+
+    async def send(self, words: Iterable[Sequence[int]], gap: float = 0.0) -> None:
+        """Offer words one after the other, each until it is taken, with that probability of a clock without one."""
+        for word in words:
+            while random.random() < gap:
+                await self.bench.tick()
+            for port, bits in zip(self._payload, word, strict=True):
+                port.value = bits
+            self._valid.value = 1
+            await self.bench.tick()
+            while not int(self._ready.value):
+                await self.bench.tick()
+            self.clocks.append(self.bench.clock)
+            self.withdraw()
+
+    def withdraw(self) -> None:
+        """Offer nothing, with random bits beside it."""
+        self._valid.value = 0
+        for port in self._payload:
+            scramble(port)
+
+
+class Sink:
+    """Takes the words of a valid/ready channel from now on: ``words``, and the ``clocks`` when they were taken.
+
+    ``stall``: probability of a clock that is not ready; may be changed at any time. A word that waits must stay as it
+    is, else Mismatch is raised.
+    """
+
+    def __init__(self, bench: Bench, valid: str, ready: str, payload: Sequence[str], stall: float = 0.0):
+        self.bench, self.stall = bench, stall
+        self.words: list[tuple[int, ...]] = []
+        self.clocks: list[int] = []
+        self._valid, self._ready = getattr(bench.dut, valid), getattr(bench.dut, ready)
+        self._payload = [getattr(bench.dut, name) for name in payload]
+        cocotb.start_soon(self._run())
+
+    async def _run(self) -> None:
+        waiting = None
+        while True:
+            ready = random.random() >= self.stall
+            self._ready.value = ready
+            await self.bench.tick()
+            word = tuple(int(port.value) for port in self._payload) if int(self._valid.value) else None
+            if waiting not in (None, word):
+                raise Mismatch(f"{self._valid._name}: a waiting word has changed (clock {self.bench.clock})")
+            if word is not None and ready:
+                self.words.append(word)
+                self.clocks.append(self.bench.clock)
+            waiting = None if ready or int(self.bench.dut.rst_i.value) else word
+
+
+async def no_path(bench: Bench, inputs: Sequence[str], outputs: Sequence[str]) -> None:
+    """Change inputs in the middle of every clock and back again: no output may follow. Runs until the test ends."""
+    into, out = ([getattr(bench.dut, name) for name in names] for names in (inputs, outputs))
+    while True:
+        await FallingEdge(bench.dut.clk_i)
+        driven, before = ([(port, int(port.value)) for port in ports] for ports in (into, out))
+        for port, bits in driven:
+            port.value = bits ^ (random.getrandbits(len(port)) | 1)
+        await Timer(1, "ns")
+        for port, bits in before:
+            bench.equal(int(port.value), bits, f"{port._name} between two edges", len(port))
+        for port, bits in driven:
+            port.value = bits
+
+
+def scramble(port: ValueObjectBase) -> None:
+    """Random bits at a port."""
+    port.value = random.getrandbits(len(port))
+
+
+def patterns(port: ValueObjectBase, values: ArrayLike) -> list[int]:
+    """Numbers as bits of a port, which counts as signed if one of them is negative. ValueError if they do not fit."""
+    values = np.asarray(values)
+    bits = len(port)
+    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if values.min() < 0 else (0, (1 << bits) - 1)
+    if values.min() < low or values.max() > high:
+        raise ValueError(f"{port._name}: {values.min()} .. {values.max()} do not fit {bits} bits")
+    return [value & (1 << bits) - 1 for value in values.tolist()]

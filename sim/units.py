@@ -372,7 +372,7 @@ def _steps(form: str) -> Iterator[Case]:
         clamp = lambda i, o=out_w: {"y_o": fixed.saturate(i["x_i"], o)}  # noqa: E731
         yield Case(
             "shade_saturate", form, {"WIDTH": width, "OUT_W": out_w}, clamp, clamp, clamp,
-            mixed(ranges, 1 << out_w, (1 << out_w) - 1) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
+            mixed(ranges, 1 << out_w) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
         )  # fmt: skip
     for a_w, b_w, stages in ((30, 18, 2), (18, 18, 2), (35, 18, 0), (10, 10, 2), (20, 2, 2)):
         ranges = {"a_i": signed_range(a_w), "b_i": signed_range(b_w)}

@@ -1,0 +1,1 @@
+"""Tests of sim/scene, and the corpus of bad mesh files."""

@@ -13,6 +13,8 @@ from sim import frame
 from sim.errors import UserError
 from sim.scene.camera import PROJECTIONS, Camera
 
+VIEW = Camera()
+
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110, "show_default": True})
 @click.version_option(package_name="polyshade")
@@ -23,7 +25,7 @@ def cli() -> None:
 @cli.command()
 @click.option("--mesh", default="head", help="head, sphere, or an OBJ, PLY, STL, OFF, glTF or GLB file.")
 @click.option("--subdivide", default=0, help="Catmull-Clark steps, 0 to 4.")
-@click.option("--size", default=1024, help="Width and height in pixels, 16 to 4096.")
+@click.option("--size", default=VIEW.size, help="Width and height in pixels, 16 to 4096.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
 @click.option("--degree", default=3, help="Degree of every span in form paper, 1 to 3.")
 @click.option("--path", default="poly", help="poly: a polynomial along each span.")
@@ -33,11 +35,11 @@ def cli() -> None:
 @click.option(
     "--light", nargs=3, type=float, default=(-0.5, 0.6, 0.8), help="Direction to the light: right, up, viewer."
 )
-@click.option("--projection", default="orthographic", help=f"{', '.join(PROJECTIONS)}.")
-@click.option("--yaw", default=0.0, help="Degrees, turns the mesh to the viewer's right.")
-@click.option("--pitch", default=0.0, help="Degrees, tips the mesh's top to the viewer.")
-@click.option("--zoom", default=1.0, help="Factor on the fitted scale.")
-@click.option("--field-of-view", default=30.0, help="Degrees, of a perspective view.")
+@click.option("--projection", default=VIEW.projection, help=f"{', '.join(PROJECTIONS)}.")
+@click.option("--yaw", default=VIEW.yaw, help="Degrees, turns the mesh to the viewer's right.")
+@click.option("--pitch", default=VIEW.pitch, help="Degrees, tips the mesh's top to the viewer.")
+@click.option("--zoom", default=VIEW.zoom, help="Factor on the fitted scale.")
+@click.option("--field-of-view", default=VIEW.field_of_view, help="Degrees, of a perspective view.")
 @click.option("--out", type=click.Path(path_type=Path), default=None, help="Folder.  [default: build/render/<mesh>]")
 def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, field_of_view: float, **options) -> None:
     """One frame through the RTL: image.png, reference.png, difference.png, report.json.

@@ -5,7 +5,8 @@
 
 All parameter points of a unit are taken together. ``exhaustive``: no point left a possible input out.
 ``max_error_ulp``: against the exact value of the unit's formula on its inputs, in its last bit;
-``max_error_ideal``: against the function that the formula approximates, as a number. ``latency`` in clocks, ``throughput`` in results a clock.
+``max_error_ideal``: against the function that the formula approximates, as a number.
+``latency`` in clocks, ``throughput`` in results a clock.
 """
 
 from __future__ import annotations

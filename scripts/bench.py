@@ -1,0 +1,109 @@
+"""``make bench``: how fast a frame is made, side by side in one run; left in ``build/bench.json``.
+
+    {"<name>": {value, unit, versus, ratio}}
+
+``value`` is the median of several runs, ``ratio`` is value / value of ``versus``. All measure the same frame: the
+default head at 1024 x 1024, Blinn-Phong, n = 32. cocotb gets the first spans of it only, without gaps, stalls or checks:
+the least that a bench in Python does.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import time
+from collections.abc import Callable
+from unittest import mock
+
+import numpy as np
+from cocotb_tools.runner import get_runner
+from tqdm import tqdm
+
+import sim
+from golden import contract, poly
+from golden.reference import light
+from scripts import tools
+from sim import frame
+from sim.scene.mesh import load_mesh
+from sim.scene.raster import expand, scan_convert
+from sim.verilate import reached
+
+OUT = tools.BUILD / "bench.json"
+WORK = tools.BUILD / "bench"
+RUNS = 5
+COCOTB_PIXELS = 20_000
+
+
+def median_seconds(job: Callable[[], object], runs: int = RUNS) -> float:
+    """Median wall time of a job, after one run that does not count."""
+    job()
+    times = []
+    for _ in range(runs):
+        began = time.perf_counter()
+        job()
+        times.append(time.perf_counter() - began)
+    return statistics.median(times)
+
+
+def cocotb_seconds(beats: np.ndarray, pixels: int) -> float:
+    """Wall time in which a cocotb bench takes spans through shade_poly_span, start-up left out."""
+    WORK.mkdir(parents=True, exist_ok=True)
+    np.save(WORK / "spans.npy", beats)
+    runner = get_runner("verilator")
+    with mock.patch.dict(os.environ, {**tools.environment(), "BENCH_PIXELS": str(pixels)}):
+        runner.build(
+            sources=reached("shade_poly_span"), hdl_toplevel="shade_poly_span", build_dir=WORK,
+            timescale=("1ns", "1ps"), build_args=["-O3", "--x-assign", "fast", "-CFLAGS", "-O2"], log_file=WORK / "build.log",
+        )  # fmt: skip
+        runner.test(
+            test_module="scripts.bench_cocotb", hdl_toplevel="shade_poly_span", hdl_toplevel_lang="verilog",
+            build_dir=WORK, test_dir=WORK, log_file=WORK / "run.log", results_xml=str(WORK / "results.xml"),
+        )  # fmt: skip
+    return json.loads((WORK / "cocotb.json").read_text())["seconds"]
+
+
+def main() -> None:
+    """Measure, write the report, print a table."""
+    settings = frame.Settings()
+    mesh = load_mesh(settings.mesh)
+    spans = scan_convert(settings.camera.project(mesh), mesh.faces, settings.camera.size)
+    records = frame.plan_spans(spans, settings)
+    nodes, _ = frame.node_light(spans, records, settings)
+    beats = poly.pack_spans(nodes, records.degree, records.count)
+    pixels = spans.pixels
+    every = expand(spans, settings.camera.size)
+
+    def model(evaluator: int) -> Callable[[], object]:
+        loaded = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=contract.FORM_REFINED, waves=False)
+        return lambda: loaded.run(s_axis_span_tdata=beats)
+
+    def phong() -> np.ndarray:
+        normal = spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
+        return light.light_channels("blinn", normal, settings.light, settings.shininess)
+
+    rates = {}
+    with tqdm(total=5, disable=None, delay=2, leave=False) as bar:
+
+        def rate(name: str, count: int, seconds: float) -> None:
+            rates[name] = count / seconds
+            bar.set_description(name)
+            bar.update()
+
+        rate("rtl_horner", pixels, median_seconds(model(contract.EVALUATOR_HORNER)))
+        rate("rtl_fdiff", pixels, median_seconds(model(contract.EVALUATOR_FDIFF)))
+        rate("golden_numpy", pixels, median_seconds(lambda: poly.poly_span(nodes, records.degree, records.count)))
+        rate("phong_float64_numpy", pixels, median_seconds(phong))
+        few = int(np.searchsorted(np.cumsum(records.count), COCOTB_PIXELS)) + 1
+        count = int(records.count[:few].sum())
+        rate("rtl_horner_cocotb", count, cocotb_seconds(beats[:few], count))
+
+    versus = dict.fromkeys(rates, "rtl_horner_cocotb") | {"rtl_horner_cocotb": "rtl_horner"}
+    report = {
+        name: {"value": value, "unit": "pixels/s", "versus": versus[name], "ratio": value / rates[versus[name]]}
+        for name, value in rates.items()
+    }
+    OUT.write_text(json.dumps(report, indent=2) + "\n")
+    print(f"{'name':22} {'pixels/s':>12} {'ratio':>10}  versus")
+    for name, row in report.items():
+        print(f"{name:22} {row['value']:12,.0f} {row['ratio']:10.3g}  {row['versus']}")

@@ -3,8 +3,8 @@
     {"<name>": {value, unit, versus, ratio}}
 
 ``value`` is the median of several runs, ``ratio`` is value / value of ``versus``. All measure the same frame: the
-default head at 1024 x 1024, Blinn-Phong, n = 32. cocotb gets the first spans of it only, without gaps, stalls or checks:
-the least that a bench in Python does.
+default head at 1024 x 1024, Blinn-Phong, n = 32. cocotb gets the first spans of it only, without gaps, stalls or
+checks: the least that a bench in Python does.
 """
 
 from __future__ import annotations

@@ -38,10 +38,11 @@ def toy(tmp_path, monkeypatch) -> Path:
     path.write_text(GOOD)
     (tmp_path / "rtl" / "lint.vlt").write_text("`verilator_config\n")
     (tmp_path / "rtl" / "shade.f").write_text("rtl/fixed/shade_toy.sv\n")
-    (tmp_path / "rtl" / "README.md").write_text("| `shade_toy` | x + 1 | `golden.contract.FORM_PAPER` |\n")
+    (tmp_path / "rtl" / "README.md").write_text("| [`shade_toy`](fixed/shade_toy.sv) | x + 1 |\n")
     bench = tmp_path / "tb" / "fixed" / "test_toy.py"
     bench.parent.mkdir(parents=True)
     bench.touch()
+    monkeypatch.setattr("golden.fixed.toy", lambda x: x + 1, raising=False)
     for name, value in {
         "ROOT": tmp_path,
         "RTL": tmp_path / "rtl",
@@ -98,8 +99,8 @@ def test_verilator_rules(toy: Path) -> None:
     [
         ("module shade_toy", "module shade_other", "must hold the one module shade_toy"),
         ("// shade_toy: y", "// y", "must open with the comment"),
-        ("Latency 1 clock", "1 clock", "no 'Latency|Combinational' in its header"),
-        ("Example", "As", "no 'Example' in its header"),
+        ("Latency 1 clock", "One step", "no 'latency|combinational|clocks' in its header"),
+        ("Example", "As", "no 'example' in its header"),
     ],
 )
 def test_header_rules(toy: Path, old: str, new: str, fault: str) -> None:
@@ -109,20 +110,25 @@ def test_header_rules(toy: Path, old: str, new: str, fault: str) -> None:
     assert len(faults) == 1 and fault in faults[0]
 
 
-@pytest.mark.parametrize(
-    ("row", "fault"),
-    [
-        ("", "no row for shade_toy"),
-        ("| `shade_toy` | x + 1 |", "names no golden twin"),
-        ("| `shade_toy` | `golden.contract.nothing` |", "golden.contract.nothing does not exist"),
-        ("| `shade_toy` | `golden.nothing.here` |", "golden.nothing.here does not exist"),
-    ],
-)
-def test_catalogue_rules(toy: Path, row: str, fault: str) -> None:
-    """A row for every module, with a golden twin that exists."""
-    lint.CATALOGUE.write_text(row + "\n")
-    faults = lint.mirror("shade_toy", toy)
-    assert len(faults) == 1 and fault in faults[0]
+def test_a_module_without_row_is_told(toy: Path) -> None:
+    """The catalogue must link to the file."""
+    lint.CATALOGUE.write_text("| [`shade_toy`](elsewhere/shade_toy.sv) | x + 1 |\n")
+    fault = "rtl/README.md: no row '| [`shade_toy`](fixed/shade_toy.sv) | ...'"
+    assert lint.mirror("shade_toy", toy) == [fault]
+    lint.CATALOGUE.unlink()
+    assert lint.mirror("shade_toy", toy) == [fault]
+
+
+def test_a_module_without_twin_is_told(toy: Path, monkeypatch) -> None:
+    """A function of the same name, or of the name without its last word; what only carries data needs none."""
+    monkeypatch.delattr("golden.fixed.toy")
+    assert lint.mirror("shade_toy", toy) == ["golden/fixed.py: no function toy, the golden twin of shade_toy"]
+    monkeypatch.setattr(lint, "CARRIERS", {"shade_toy"})
+    assert lint.mirror("shade_toy", toy) == []
+    assert lint._twin(Path("rtl/fixed/shade_third_fast.sv")) == []
+    assert lint._twin(Path("rtl/nowhere/shade_toy.sv")) == [
+        "golden/nowhere.py: missing, the golden model of rtl/nowhere"
+    ]
 
 
 def test_a_module_without_bench_is_told(toy: Path) -> None:

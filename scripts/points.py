@@ -29,7 +29,13 @@ POINTS: dict[str, list[Point]] = {
     "shade_coef_c": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
     "shade_coef_d": grid(WIDTH=[3, 20]),
     "shade_coef": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
-    "shade_poly_span": grid(EVALUATOR=[0, 1], FORM=[0, 1]),
+    "shade_horner_step": grid(WIDTH=[8, 33], T_F=[2, 16]),
+    "shade_horner_pipe": [{"COEF_W": 2, "D_W": 2, "T_F": 2}, {"COEF_W": 30, "D_W": 30}, {"COEF_W": 11, "D_W": 4}],
+    "shade_horner_seq": [{"COEF_W": 2, "D_W": 2, "T_F": 2}, {"COEF_W": 30, "D_W": 30}, {"COEF_W": 11, "D_W": 4}],
+    "shade_fdiff": grid(COEF_W=[2, 25], D_W=[2], LOG2_MAX=[1, 12]),
+    "shade_fifo": grid(WIDTH=[1, 48], LOG2=[1, 4]),
+    "shade_span_walk": grid(LOG2_MAX=[2, 12], CREDIT_LOG2=[1, 6]),
+    "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
 }
 
 REFUSED: dict[str, list[Point]] = {
@@ -40,6 +46,14 @@ REFUSED: dict[str, list[Point]] = {
     "shade_mul": [{"A_W": 36}, {"B_W": 19}, {"STAGES": 1}],
     "shade_third": [{"WIDTH": 3}, {"WIDTH": 29}],
     "shade_coef_a": [{"WIDTH": 2}, {"WIDTH": 21}],
+    "shade_coef_b": [{"WIDTH": 2}, {"WIDTH": 21}],
+    "shade_coef_c": [{"WIDTH": 2}, {"WIDTH": 21}],
+    "shade_horner_pipe": [{"COEF_W": 31}, {"D_W": 26}, {"T_F": 17}],
+    "shade_horner_seq": [{"COEF_W": 31}, {"D_W": 26}, {"T_F": 17}],
+    "shade_fdiff": [{"D_W": 1}, {"D_W": 26}, {"LOG2_MAX": 13}],
+    "shade_fifo": [{"WIDTH": 0}, {"LOG2": 0}],
+    "shade_span_walk": [{"LOG2_MAX": 1}, {"LOG2_MAX": 13}, {"CREDIT_LOG2": 0}],
+    "shade_poly_span": [{"EVALUATOR": 2}],
 }
 
 # Points beside the default one that stand in the synthesis report as well.

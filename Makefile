@@ -29,7 +29,7 @@ test: $(READY) ## Run lint, golden, cocotb, NumPy-driven and command-line tests
 
 test-one: $(READY) ## Run one test again: T='tb/...::test_x[...]' SEED=1 WAVES=1
 	@$(BIN)/python -m scripts.tools cocotb
-	$(PYTEST) -n 0 -v $(if $(findstring .py,$(T)),,-k) '$(T)'
+	$(PYTEST) -n 0 -v $(if $(findstring /,$(T)),,-k) '$(or $(T),$(error T is empty: give a test, such as T=tb/fixed/test_third.py))'
 
 lint: $(READY) ## Check RTL and Python: Verilator, Yosys, rules of the house, ruff
 	$(BIN)/python -m scripts.lint

@@ -5,7 +5,7 @@ import pytest
 from scripts import lint
 
 
-@pytest.mark.parametrize("item", lint.items(), ids=lambda item: item.name.replace(" ", "-"))
+@pytest.mark.parametrize("item", list(lint.items()), ids=lambda item: item.name.replace(" ", "-"))
 def test_lint(item: lint.Item) -> None:
     """No fault found."""
     faults = item.check()

@@ -113,12 +113,11 @@ class Bench:
             await self.tick()
         raise Mismatch(f"{what}: not within {clocks} clocks (clock {self.clock})")
 
-    def equal(self, actual: int, expected: int, what: str, bits: int = 32) -> None:
-        """Count a comparison of two patterns of so many bits; raise Mismatch with both in hex unless equal."""
+    def equal(self, actual: int, expected: int, what: str, bits: int = 0) -> None:
+        """Count a comparison; raise Mismatch unless equal. It shows patterns of so many ``bits`` in hex, else numbers."""
         self.checks += 1
         if actual != expected:
-            digits, mask = -(-bits // 4), (1 << bits) - 1
-            shown, wanted = (f"0x{value & mask:0{digits}x}" for value in (actual, expected))
+            shown, wanted = (f"0x{n & (1 << bits) - 1:0{-(-bits // 4)}x}" if bits else n for n in (actual, expected))
             raise Mismatch(f"{what} is {shown}, expected {wanted} (clock {self.clock})")
 
     async def pipeline(
@@ -158,7 +157,7 @@ class Bench:
 
             row = sent[-1 - latency]
             if valid:
-                self.equal(int(dut.valid_o.value), row is not None, f"row {row}: valid_o", 1)
+                self.equal(int(dut.valid_o.value), row is not None, f"row {row}: valid_o")
             if row is not None:
                 given = ", ".join(f"{port._name} = {values[row]:#x}" for port, values in entries)
                 for port, values in exits:
@@ -228,6 +227,11 @@ class Sink:
                 self.words.append(word)
                 self.clocks.append(self.bench.clock)
             waiting = None if ready or int(self.bench.dut.rst_i.value) else word
+
+    def forget(self) -> None:
+        """Start again with no words."""
+        self.words.clear()
+        self.clocks.clear()
 
 
 async def no_path(bench: Bench, inputs: Sequence[str], outputs: Sequence[str]) -> None:

@@ -1,8 +1,13 @@
 """Inputs that several benches of rtl/poly share, by port."""
 
+import random
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from golden import contract as k
+from golden.poly import pack_spans, span_errors
 from tb.bench import Bench
 
 
@@ -28,3 +33,57 @@ def nodes(bench: Bench, rows: int) -> dict[str, np.ndarray]:
     flat = np.clip(free[:, :1] + bench.rng.integers(-2, 3, free.shape), -(1 << bits - 1), (1 << bits - 1) - 1)
     chosen = np.where(np.arange(rows)[:, None] % 2, free, flat)
     return {"degree_i": bench.rng.integers(0, 4, rows), **{f"i{i + 1}_i": chosen[:, i] for i in range(k.NODE_COUNT)}}
+
+
+@dataclass(frozen=True)
+class Spans:
+    """Spans for shade_span_walk and shade_poly_span: nodes (S, 2, 4), degree (S,), count (S,), tag (S,)."""
+
+    nodes: np.ndarray
+    degree: np.ndarray
+    count: np.ndarray
+    tag: np.ndarray
+
+    def beats(self) -> list[tuple[int]]:
+        """What stands at s_axis_span_tdata, a beat a span; bits without a meaning are random."""
+        packed = _beats(pack_spans(self.nodes, self.degree, self.count, self.tag))
+        return [(beat | random.getrandbits(k.SPAN_DATA_W) & ~USED,) for beat in packed]
+
+    def errors(self, bench: Bench) -> np.ndarray:
+        """The error bits of every span (S,)."""
+        return span_errors(self.degree, self.count, log2_max=bench.parameter("LOG2_MAX"))
+
+    def clocks(self, bench: Bench) -> np.ndarray:
+        """How long every span occupies the walk (S,): a clock a pixel, or one if it is refused."""
+        return np.where(self.errors(bench) == 0, self.count, 1)
+
+
+def _beats(words: np.ndarray) -> list[int]:
+    return [int.from_bytes(row.astype("<u4").tobytes(), "little") for row in words]
+
+
+USED = _beats(pack_spans(np.full((1, k.CHANNELS, k.NODE_COUNT), -1), [-1], [-1], [-1]))[0]
+"""The bits of a beat that have a meaning."""
+
+
+def spans(bench: Bench, degree: ArrayLike, count: ArrayLike) -> Spans:
+    """Spans with random tags and nodes: one half with intensities in [0, 1], the other with corners and any bits."""
+    degree, count = np.broadcast_arrays(degree, count)
+    shape = (count.size, k.CHANNELS, k.NODE_COUNT)
+    seen = bench.rng.integers(0, 1 << k.INTENSITY_F, shape, endpoint=True)
+    free = bench.signed(k.INTENSITY_W, seen.size).reshape(shape)
+    chosen = np.where(bench.rng.random((count.size, 1, 1)) < 0.5, seen, free)
+    return Spans(chosen, degree, count, bench.rng.integers(0, 1 << k.TAG_W, count.size))
+
+
+def mixed_spans(bench: Bench, rows: int, faults: float = 0.0) -> Spans:
+    """Spans of all degrees and of 1 to 20 pixels, half of them of 1 to 4; ``faults``: share of those to be refused."""
+    rng = bench.rng
+    degree = rng.integers(0, 4, rows)
+    short = (rng.random(rows) < 0.5) | (degree == k.DEGREE_DIRECT)
+    count = np.where(short, rng.integers(1, k.DIRECT_MAX + 1, rows), rng.integers(1, 21, rows))
+    limit = 1 << bench.parameter("LOG2_MAX")
+    long = rng.integers(limit + 1, 1 << k.COUNT_W, rows)
+    wrong = np.where(degree == k.DEGREE_DIRECT, rng.integers(k.DIRECT_MAX + 1, limit, rows), limit + 1)
+    refused = np.choose(rng.integers(0, 3, rows), [np.zeros(rows, int), long, wrong])
+    return spans(bench, degree, np.where(rng.random(rows) < faults, refused, count))

@@ -28,7 +28,7 @@ class Writer:
         taken = False
         while True:
             await self.bench.tick()
-            self.bench.equal(int(self.dut.taken_o.value), taken, "taken_o", 1)
+            self.bench.equal(int(self.dut.taken_o.value), taken, "taken_o")
             self.credits += taken
             in_reset = int(self.dut.rst_i.value)
             taken = int(self.dut.valid_o.value) and int(self.dut.ready_i.value) and not in_reset
@@ -92,7 +92,7 @@ async def latency(bench: Bench) -> None:
 
 @checked()
 async def throughput(bench: Bench) -> None:
-    """A word a clock goes through. As nothing is held up, two places suffice and the writer need not wait for credits."""
+    """A word a clock goes through. Nothing is held up: two places suffice, and the writer waits for no credit."""
     writer, sink = setup(bench, 0.0)
     words = some_words(bench, 200)
     writer.credits = len(words)
@@ -132,7 +132,7 @@ async def reset(bench: Bench) -> None:
         await bench.reset(clocks=1)
         for _ in range(4):
             await bench.tick()
-            bench.equal(int(bench.dut.valid_o.value), 0, f"valid_o after a reset with {held} words", 1)
+            bench.equal(int(bench.dut.valid_o.value), 0, f"valid_o after a reset with {held} words")
     sink.stall = 0.0
     words = some_words(bench, 100)
     await writer.write(words)

@@ -24,13 +24,14 @@ import sim
 from golden import contract, poly
 from golden.reference import light
 from scripts import tools
+from scripts.sources import BUILD
 from sim import frame
 from sim.scene.mesh import load_mesh
 from sim.scene.raster import expand, scan_convert
 from sim.verilate import reached
 
-OUT = tools.BUILD / "bench.json"
-WORK = tools.BUILD / "bench"
+OUT = BUILD / "bench.json"
+WORK = BUILD / "bench"
 RUNS = 5
 COCOTB_PIXELS = 20_000
 
@@ -54,7 +55,8 @@ def cocotb_seconds(beats: np.ndarray, pixels: int) -> float:
     with mock.patch.dict(os.environ, {**tools.environment(), "BENCH_PIXELS": str(pixels)}):
         runner.build(
             sources=reached("shade_poly_span"), hdl_toplevel="shade_poly_span", build_dir=WORK,
-            timescale=("1ns", "1ps"), build_args=["-O3", "--x-assign", "fast", "-CFLAGS", "-O2"], log_file=WORK / "build.log",
+            timescale=("1ns", "1ps"), build_args=["-O3", "--x-assign", "fast", "-CFLAGS", "-O2"],
+            log_file=WORK / "build.log",
         )  # fmt: skip
         runner.test(
             test_module="scripts.bench_cocotb", hdl_toplevel="shade_poly_span", hdl_toplevel_lang="verilog",

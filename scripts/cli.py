@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from golden.reference.light import MODELS
-from scripts import tools
+from scripts.sources import BUILD
 from sim import frame
 from sim.errors import UserError
 from sim.scene.camera import PROJECTIONS, Camera
@@ -51,7 +51,7 @@ def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, fi
         raise UserError(f"--path: {path!r} is none of poly")
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
     settings = frame.Settings(camera=camera, **options)
-    out = out or tools.BUILD / "render" / Path(settings.mesh).stem
+    out = out or BUILD / "render" / Path(settings.mesh).stem
     if out.exists() and not out.is_dir():
         raise UserError(f"--out {out}: is a file, allowed a folder")
     picture = frame.render(settings)

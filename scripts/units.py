@@ -17,11 +17,11 @@ import sys
 from tqdm import tqdm
 
 from golden import contract
-from scripts import tools
+from scripts.sources import BUILD
 from sim.errors import UserError
 from sim.units import FORMS, Case, Result, cases, check_poly_span
 
-OUT = tools.BUILD / "units.json"
+OUT = BUILD / "units.json"
 EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
 ALLOWED = (1, 1_000_000_000)
 

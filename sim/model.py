@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scripts import tools
+from scripts.sources import BUILD
 from sim import verilate
 from sim.errors import UserError
 from sim.verilate import Port
@@ -205,7 +205,7 @@ class Model:
         rows = max([1, *(len(np.asarray(inputs[n])) for n in names if np.asarray(inputs[n]).ndim)])
         arrays = [self._input(port, inputs[port.name], rows) for port in face.into.data]
         pointers = (ctypes.c_void_p * max(1, len(arrays)))(*(array.ctypes.data for array in arrays))
-        waves = tools.BUILD / "waves" / f"{self.module}.vcd"
+        waves = BUILD / "waves" / f"{self.module}.vcd"
         if self.waves:
             waves.parent.mkdir(parents=True, exist_ok=True)
         job = _Job(

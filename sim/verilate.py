@@ -20,11 +20,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scripts import tools
-from scripts.sources import modules, sources
+from scripts.sources import BUILD, modules, sources
 from sim.errors import UserError
 
 HERE = Path(__file__).resolve().parent
-CACHE = tools.BUILD / "sim"
+CACHE = BUILD / "sim"
 VERILATOR_FLAGS = [
     "--cc",
     "-O3",

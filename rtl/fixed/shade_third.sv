@@ -23,6 +23,9 @@ module shade_third #(
   if (WIDTH < 4 || WIDTH > 28) begin : g_check
     $error("shade_third: WIDTH must be in 4 .. 28");
   end
+  if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check_form
+    $error("shade_third: FORM must be FORM_PAPER or FORM_REFINED");
+  end
 
   localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
   // x        sddd dddd

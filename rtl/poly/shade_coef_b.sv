@@ -31,6 +31,9 @@ module shade_coef_b #(
   if (WIDTH < 3 || WIDTH > 20) begin : g_check
     $error("shade_coef_b: WIDTH must be in 3 .. 20");
   end
+  if (NODES != shade_pkg::NODES_LEFT && NODES != shade_pkg::NODES_RIGHT) begin : g_check_nodes
+    $error("shade_coef_b: NODES must be NODES_LEFT or NODES_RIGHT");
+  end
 
   localparam bit LEFT = NODES == shade_pkg::NODES_LEFT;
   localparam int SUM_W = WIDTH + shade_pkg::COEF_GROWTH - 1;  // B / 2

@@ -35,6 +35,12 @@ module shade_coef_c #(
   if (WIDTH < 3 || WIDTH > 20) begin : g_check
     $error("shade_coef_c: WIDTH must be in 3 .. 20");
   end
+  if (NODES != shade_pkg::NODES_LEFT && NODES != shade_pkg::NODES_RIGHT) begin : g_check_nodes
+    $error("shade_coef_c: NODES must be NODES_LEFT or NODES_RIGHT");
+  end
+  if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check_form
+    $error("shade_coef_c: FORM must be FORM_PAPER or FORM_REFINED");
+  end
 
   localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
   localparam bit LEFT = NODES == shade_pkg::NODES_LEFT;

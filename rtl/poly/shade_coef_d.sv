@@ -12,6 +12,10 @@ module shade_coef_d #(
   output logic                    valid_o,
   output logic signed [WIDTH-1:0] d_o
 );
+  if (WIDTH < 1) begin : g_check
+    $error("shade_coef_d: WIDTH must be at least 1");
+  end
+
   shade_delay #(.WIDTH(WIDTH), .DEPTH(shade_pkg::LATENCY_COEF)) u_align (.clk_i, .d_i(i1_i), .q_o(d_o));
   shade_valid #(.DEPTH(shade_pkg::LATENCY_COEF)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

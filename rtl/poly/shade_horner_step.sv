@@ -22,6 +22,10 @@ module shade_horner_step #(
   input  logic signed [WIDTH-1:0] c_i,
   output logic signed [WIDTH-1:0] y_o
 );
+  if (WIDTH < 2 || WIDTH > 35 || T_F < 2 || T_F > 16) begin : g_check
+    $error("shade_horner_step: WIDTH must be in 2 .. 35 and T_F in 2 .. 16");
+  end
+
   localparam int PRODUCT_W = WIDTH + T_F + 2;
   logic signed [PRODUCT_W-1:0] product_q2, sum;
 

@@ -90,8 +90,9 @@ async def compare(bench: Bench, sent: Spans, tokens: Tokens) -> None:
         "log2_o": log2,
         "tag_o": sent.tag[of],
     }
+    texts = sent.texts()
     for index, token in enumerate(tokens.tokens):
-        what = f"span {of[index]} (degree {sent.degree[of[index]]}, {sent.count[of[index]]} pixels), pixel {j[index]}"
+        what = f"pixel {j[index]} of {texts[of[index]]}"
         for name, values in expected.items():
             bench.equal(token[name], int(values[index]), f"{what}: {name}", bench.bits(name))
         for channel in range(k.CHANNELS):

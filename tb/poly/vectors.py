@@ -49,6 +49,14 @@ class Spans:
         packed = _beats(pack_spans(self.nodes, self.degree, self.count, self.tag))
         return [(beat | random.getrandbits(k.SPAN_DATA_W) & ~USED,) for beat in packed]
 
+    def texts(self) -> list[str]:
+        """Every span in words, for messages: number, degree, pixels, nodes of either channel in hex."""
+        nodes = self.nodes.reshape(len(self.nodes), -1) & (1 << k.INTENSITY_W) - 1
+        return [
+            f"span {span} (degree {self.degree[span]}, {self.count[span]} pixels, nodes {' '.join(f'{node:05x}' for node in row)})"
+            for span, row in enumerate(nodes)
+        ]
+
     def errors(self, bench: Bench) -> np.ndarray:
         """The error bits of every span (S,)."""
         return span_errors(self.degree, self.count, log2_max=bench.parameter("LOG2_MAX"))

@@ -32,6 +32,15 @@ VALUE_W = COEF_W + VALUE_GROWTH  # S10.16, the unclamped intensity of a pixel
 HORNER_GUARD = 3  # fraction bits that Horner keeps below an ulp; error <= 1/2 + 3/16 ulp
 PIXEL_W = 16  # U0.16, clamped to [0, 1 - 2^-16]
 
+# ---- reciprocal square root ------------------------------------------------------------------------------------
+RSQRT_W = 36  # the sum of three squares of S1.16 numbers, exact: U4.32
+RSQRT_F = 20  # mantissa U1.20 in (1/2, 1]
+RSQRT_INDEX_W = 7  # table: 96 segments of 1/32 over [1, 4), addressed by the first seven bits
+RSQRT_C0_F = 22  # coefficients of a segment's parabola in d, the distance from its middle
+RSQRT_C1_F = 18
+RSQRT_C2_F = 12
+RSQRT_D_F = 23  # d is S-6.23 in [-1/64, 1/64): 18 bits
+
 # ---- spans -----------------------------------------------------------------------------------------------------
 CHANNELS = 2  # diffuse, specular
 NODE_COUNT = 4
@@ -59,6 +68,8 @@ LATENCY_HORNER_PIPE = 3 * LATENCY_HORNER_STEP
 LATENCY_HORNER_SEQ = 6  # clocks a value: load and the five steps of P1, Fig. 9
 LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the rounding
 LATENCY_FIFO = 2  # memory, output register
+LATENCY_RSQRT = 2 + 1 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
+LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 

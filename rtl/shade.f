@@ -6,6 +6,8 @@ rtl/fixed/shade_round.sv
 rtl/fixed/shade_saturate.sv
 rtl/fixed/shade_mul.sv
 rtl/fixed/shade_third.sv
+rtl/fixed/shade_rsqrt_rom.sv
+rtl/fixed/shade_rsqrt.sv
 rtl/poly/shade_coef_a.sv
 rtl/poly/shade_coef_b.sv
 rtl/poly/shade_coef_c.sv
@@ -18,3 +20,4 @@ rtl/poly/shade_fdiff.sv
 rtl/stream/shade_fifo.sv
 rtl/poly/shade_span_walk.sv
 rtl/poly/shade_poly_span.sv
+rtl/normal/shade_normalize.sv

@@ -33,6 +33,15 @@ package shade_pkg;
   localparam int HORNER_GUARD = 3;  // fraction bits that Horner keeps below an ulp; error <= 1/2 + 3/16 ulp
   localparam int PIXEL_W = 16;  // U0.16, clamped to [0, 1 - 2^-16]
 
+  // reciprocal square root
+  localparam int RSQRT_W = 36;  // the sum of three squares of S1.16 numbers, exact: U4.32
+  localparam int RSQRT_F = 20;  // mantissa U1.20 in (1/2, 1]
+  localparam int RSQRT_INDEX_W = 7;  // table: 96 segments of 1/32 over [1, 4), addressed by the first seven bits
+  localparam int RSQRT_C0_F = 22;  // coefficients of a segment's parabola in d, the distance from its middle
+  localparam int RSQRT_C1_F = 18;
+  localparam int RSQRT_C2_F = 12;
+  localparam int RSQRT_D_F = 23;  // d is S-6.23 in [-1/64, 1/64): 18 bits
+
   // spans
   localparam int CHANNELS = 2;  // diffuse, specular
   localparam int NODE_COUNT = 4;
@@ -60,6 +69,8 @@ package shade_pkg;
   localparam int LATENCY_HORNER_SEQ = 6;  // clocks a value: load and the five steps of P1, Fig. 9
   localparam int LATENCY_FDIFF = 6;  // two shifter levels, two adder levels, the state, the rounding
   localparam int LATENCY_FIFO = 2;  // memory, output register
+  localparam int LATENCY_RSQRT = 9;  // two shifter levels, the table, two steps of Horner's scheme
+  localparam int LATENCY_NORMALIZE = 18;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 

@@ -1,4 +1,7 @@
-"""Write ``rtl/shade_pkg.sv`` from ``golden/contract.py``: ``python -m scripts.generate`` (``--check``: compare)."""
+"""Write what the RTL takes from the golden model: ``python -m scripts.generate`` (``--check``: compare).
+
+``rtl/shade_pkg.sv`` from ``golden/contract.py``, the table ``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,10 @@ import re
 import sys
 from pathlib import Path
 
-from golden import contract
+from golden import contract as k
+from golden.fixed import rsqrt_table
 
 ROOT = Path(__file__).resolve().parent.parent
-PACKAGE = ROOT / "rtl" / "shade_pkg.sv"
 HEADER = """\
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
@@ -24,9 +27,9 @@ HEADER = """\
 
 def package() -> str:
     """The text of the package: one constant a line, with the comment that stands behind it in the contract."""
-    source = Path(contract.__file__).read_text()
+    source = Path(k.__file__).read_text()
     lines = [HEADER, "package shade_pkg;"]
-    values = contract.constants()
+    values = k.constants()
     for line in source.split("def constants")[0].splitlines():
         if section := re.match(r"# -+ (.*?) -+$", line):
             lines += ["", f"  // {section[1]}"]
@@ -38,18 +41,61 @@ def package() -> str:
     return "\n".join([*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", ""])
 
 
+ROM_HEADER = """\
+// shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
+//
+// Generated from golden.fixed.rsqrt_table by `python -m scripts.generate`: change it there.
+// c0_o U0.22, with the half ulp of the result's rounding; c1_o S0.18, negative; c2_o U0.12; segments below 1 are 0.
+// Combinational: with registers behind it the table becomes block RAM or LUTs as the tool sees fit (6,400 bits).
+// Example: i = 32 -> c0 = 1/sqrt(1 + 1/64) + 2^-21.
+"""
+
+
+def rsqrt_rom() -> str:
+    """The text of the table's module."""
+    widths = {"c0": k.RSQRT_C0_F, "c1": k.RSQRT_C1_F, "c2": k.RSQRT_C2_F}
+    half = 1 << k.RSQRT_C0_F - k.RSQRT_F - 1
+    rows = [
+        f"      {k.RSQRT_INDEX_W}'d{i}: {{c0_o, c1_o, c2_o}} = "
+        f"{{{widths['c0']}'d{c0 + half}, -{widths['c1']}'sd{-c1}, {widths['c2']}'d{c2}}};"
+        for i, (c0, c1, c2) in enumerate(rsqrt_table().tolist())
+        if c0
+    ]
+    return "\n".join(
+        [
+            f"{ROM_HEADER}module shade_rsqrt_rom (",
+            "  input  logic        [shade_pkg::RSQRT_INDEX_W-1:0] i_i,",
+            "  output logic        [   shade_pkg::RSQRT_C0_F-1:0] c0_o,",
+            "  output logic signed [   shade_pkg::RSQRT_C1_F-1:0] c1_o,",
+            "  output logic        [   shade_pkg::RSQRT_C2_F-1:0] c2_o",
+            ");",
+            "  always_comb begin",
+            "    case (i_i)",
+            *rows,
+            "      default: {c0_o, c1_o, c2_o} = '0;",
+            "    endcase",
+            "  end",
+            "endmodule",
+            "",
+        ]
+    )
+
+
+GENERATED = {"rtl/shade_pkg.sv": package, "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom}
+
+
 def main() -> int:
+    """Write the files, or tell which of them are out of date."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--check", action="store_true", help="fail when the file on disk is not up to date")
-    if parser.parse_args().check:
-        if PACKAGE.read_text() != package():
-            print(
-                "rtl/shade_pkg.sv differs from golden/contract.py: run `python -m scripts.generate`",
-                file=sys.stderr,
-            )
+    parser.add_argument("--check", action="store_true", help="fail when a file on disk is not up to date")
+    check = parser.parse_args().check
+    for name, text in GENERATED.items():
+        path = ROOT / name
+        if not check:
+            path.write_text(text())
+        elif not path.exists() or path.read_text() != text():
+            print(f"{name} is out of date: run `python -m scripts.generate`", file=sys.stderr)
             return 1
-    else:
-        PACKAGE.write_text(package())
     return 0
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 import sim
 from golden import contract as k
-from golden import fixed, poly
+from golden import fixed, normal, poly
 
 Arrays = dict[str, np.ndarray]
 CHUNK = 1 << 20
@@ -490,7 +490,56 @@ def _exact_pixels(form: str, nodes, degree, count, span, j) -> np.ndarray:
     return value.clip(0, (1 << k.PIXEL_W) - 1)
 
 
+def _roots(form: str) -> Iterator[Case]:
+    """Reciprocal square root and exact normalizer: arguments of every length, down to one unit."""
+    if form != "refined":
+        return
+
+    def lengths(make: Callable[[np.random.Generator, int], Arrays], bits: int):
+        """Vectors of which each is shortened by a random number of bits."""
+
+        def shorter(rng: np.random.Generator, rows: int) -> Arrays:
+            shift = rng.integers(0, bits, rows)
+            return {name: value >> shift for name, value in make(rng, rows).items()}
+
+        return shorter
+
+    def rsqrt(i: Arrays) -> Arrays:
+        y, e = fixed.rsqrt(i["z_i"])
+        return {"y_o": y, "e_o": e, "zero_o": (i["z_i"] == 0).astype(np.int64)}
+
+    def root(i: Arrays) -> Arrays:
+        golden = rsqrt(i)
+        z = np.maximum(i["z_i"], 1).astype(Real)
+        exact = np.ldexp(1 / np.sqrt(z), golden["e_o"] + k.RSQRT_F)
+        return golden | {"y_o": np.where(i["z_i"] == 0, 0, exact)}
+
+    argument = {"z_i": (0, (1 << k.RSQRT_W) - 1)}
+    yield Case(
+        "shade_rsqrt", form, {}, rsqrt, root, root, lengths(mixed(argument), k.RSQRT_W), None, k.LATENCY_RSQRT,
+        unit_f=k.RSQRT_F,
+    )  # fmt: skip
+
+    def unit(i: Arrays) -> Arrays:
+        components = normal.normalize(i["x_i"], i["y_i"], i["z_i"])
+        zero = (i["x_i"] | i["y_i"] | i["z_i"]) == 0
+        return dict(zip(("x_o", "y_o", "z_o"), components, strict=True)) | {"zero_o": zero.astype(np.int64)}
+
+    def exact(i: Arrays) -> Arrays:
+        vector = [i[f"{c}_i"].astype(Real) for c in "xyz"]
+        length = np.sqrt(sum(c * c for c in vector))
+        return unit(i) | {
+            f"{c}_o": v * ONE / np.where(length == 0, 1, length) for c, v in zip("xyz", vector, strict=True)
+        }
+
+    vector = {f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"}
+    yield Case(
+        "shade_normalize", form, {}, unit, exact, exact, lengths(mixed(vector, ONE, -ONE), k.INTENSITY_W), None,
+        k.LATENCY_NORMALIZE,
+    )  # fmt: skip
+
+
 def cases() -> list[Case]:
     """All cases of all units, both forms, in the order of the data's way."""
-    parts = (_steps, _waits, _third, _coef, _horner, _fdiff)
+    parts = (_steps, _waits, _third, _coef, _horner, _fdiff, _roots)
     return [case for part in parts for form in FORMS for case in part(form)]

@@ -28,8 +28,14 @@ BOUND = {
     "shade_horner_pipe": 1 / 2 + 3 / 16,
     "shade_horner_seq": 1 / 2 + 3 / 16,
     "shade_fdiff": 1 / 2,
+    "shade_rsqrt": 7 / 8,
+    "shade_normalize": 5 / 8,
 }
-NEEDS_FULL = {name for name in BOUND if name.startswith(("shade_coef", "shade_horner", "shade_fdiff"))}
+NEEDS_FULL = {
+    name
+    for name in BOUND
+    if name.startswith(("shade_coef", "shade_horner", "shade_fdiff", "shade_rsqrt", "shade_normalize"))
+}
 
 
 @pytest.mark.parametrize("case", cases(), ids=str)

@@ -1,0 +1,91 @@
+// shade_normalize: n = v / |v| for vectors of every length, to the last bit.
+//
+//   x_i, y_i, z_i  S1.16              any vector but 0
+//   x_o, y_o, z_o  S1.16              unit vector; each component within 1 ulp of the exact one (bound 5/8)
+//   zero_o                            v = 0: the result is 0
+//
+//   s = x^2 + y^2 + z^2               exact, U4.32
+//   1/sqrt(s) = r 2^(16-e)            shade_rsqrt: r is U1.20 within 1 ulp, 2^e <= |v| < 2^(e+1) in ulp
+//   w = v 2^(17-e)                    19 bits: |w| < 2^18, whatever the length of v
+//   n = w r / 2^21                    rounded once, to nearest, ties up
+//
+// w is 2 h + b: the multiplier takes the 18 bits of h, b adds r: it is 1 for |v| >= 2 only. Nine 18 x 18 multipliers for the
+// vector, two in shade_rsqrt. Latency LATENCY_NORMALIZE = 18 clocks, one vector a clock.
+// Example: v = (3, 0, 4) 2^-16 -> n = (0.6, 0, 0.8). Source: P4, section 2; P2.
+module shade_normalize (
+  input  logic                                     clk_i,
+  input  logic                                     rst_i,
+  input  logic                                     valid_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] x_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] y_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] z_i,
+  output logic                                     valid_o,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] x_o,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] y_o,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] z_o,
+  output logic                                     zero_o
+);
+  localparam int W = shade_pkg::INTENSITY_W;
+  localparam int V_W = W + W + W;
+  localparam int S_W = shade_pkg::RSQRT_W;
+  localparam int R_W = shade_pkg::RSQRT_F + 1;
+  localparam int MUL = shade_pkg::LATENCY_MUL;
+  localparam int TO_ROOT = MUL + 2 + shade_pkg::LATENCY_RSQRT;
+
+  // ---- |v|^2 and its root --------------------------------------------------------------------------------------
+  logic [S_W-1:0] xx_q2, yy_q2, zz_q2, zz_q3, xy_q3, s_q4;
+  shade_mul #(.A_W(W), .B_W(W)) u_xx (.clk_i, .a_i(x_i), .b_i(x_i), .p_o(xx_q2));
+  shade_mul #(.A_W(W), .B_W(W)) u_yy (.clk_i, .a_i(y_i), .b_i(y_i), .p_o(yy_q2));
+  shade_mul #(.A_W(W), .B_W(W)) u_zz (.clk_i, .a_i(z_i), .b_i(z_i), .p_o(zz_q2));
+  always_ff @(posedge clk_i) begin
+    xy_q3 <= xx_q2 + yy_q2;
+    zz_q3 <= zz_q2;
+    s_q4  <= xy_q3 + zz_q3;  // at most 3 * 2^34 < 2^36
+  end
+
+  logic [R_W-1:0] r_q13, r_q14, r_q15;
+  logic [4:0] e_q13;
+  logic zero_q13;
+  shade_rsqrt u_rsqrt (
+    .clk_i, .rst_i, .valid_i(1'b0), .z_i(s_q4), .valid_o(), .y_o(r_q13), .e_o(e_q13), .zero_o(zero_q13)
+  );
+
+  // ---- w = v 2^(17-e), in steps of 4, then of 1 ----------------------------------------------------------------
+  logic [V_W-1:0] v_q13;
+  logic [4:0] shift;
+  logic [1:0] shift_q14;
+  shade_delay #(.WIDTH(V_W), .DEPTH(TO_ROOT)) u_v (.clk_i, .d_i({x_i, y_i, z_i}), .q_o(v_q13));
+  assign shift = 5'd17 - e_q13;
+  always_ff @(posedge clk_i) begin
+    shift_q14 <= shift[1:0];
+    r_q14     <= r_q13;
+    r_q15     <= r_q14;
+  end
+
+  // ---- the three components ------------------------------------------------------------------------------------
+  logic [V_W-1:0] n;
+  for (genvar c = 0; c < 3; c++) begin : g_component
+    localparam int LSB = c * W;
+    localparam int P_W = R_W + 1 + W;
+    logic signed [W:0] w_q14, w_q15;
+    logic signed [P_W-1:0] p_q17;
+    logic signed [P_W:0] sum;
+    logic [R_W:0] addend_q16, addend_q17;  // b r + half an ulp of n
+    logic signed [W-1:0] n_q18;
+
+    always_ff @(posedge clk_i) begin
+      w_q14      <= (W + 1)'($signed(v_q13[LSB+:W])) <<< {shift[4:2], 2'b00};
+      w_q15      <= w_q14 <<< shift_q14;
+      addend_q16 <= {1'b0, w_q15[0] ? r_q15 : '0} + ((R_W + 1)'(1) << shade_pkg::RSQRT_F);
+      addend_q17 <= addend_q16;
+      n_q18      <= W'(sum >>> R_W);
+    end
+    shade_mul #(.A_W(R_W + 1), .B_W(W)) u_product (.clk_i, .a_i({1'b0, r_q15}), .b_i(w_q15[W:1]), .p_o(p_q17));
+    assign sum          = ((P_W + 1)'(p_q17) <<< 1) + (P_W + 1)'({1'b0, addend_q17});
+    assign n[LSB+:W] = n_q18;
+  end
+  assign {x_o, y_o, z_o} = n;
+
+  shade_delay #(.WIDTH(1), .DEPTH(2 + MUL + 1)) u_zero (.clk_i, .d_i(zero_q13), .q_o(zero_o));
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_NORMALIZE)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+endmodule

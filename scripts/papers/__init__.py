@@ -1,0 +1,45 @@
+"""Every claim of the papers against what this project measures, and their figures drawn again: ``make papers``.
+
+    build/papers.json   [{paper, claim, claimed, measured, holds, relation, unit, kind, figure, note}]
+    build/papers/*.png  the figures
+
+A paper's claims are measured by a few steps: generators of claims that draw their figures on the way (:data:`STEPS`).
+Every measured number comes from the RTL, through ``sim``, or from the golden package; none is written down.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import asdict
+from pathlib import Path
+
+from tqdm import tqdm
+
+from scripts.papers import p1_arithmetic, p1_face, p1_line
+from scripts.papers.claims import Claim
+from scripts.sources import BUILD
+
+STEPS = [*p1_arithmetic.STEPS, *p1_line.STEPS, *p1_face.STEPS]
+
+
+def main(out: Path = BUILD / "papers.json", *, size: int = 512) -> list[dict]:
+    """Measure all claims, draw all figures, write ``out`` and ``<folder of out>/papers/*.png``; the rows of ``out``.
+
+    ``size`` of the frames on which the methods are compared.
+    """
+    figures = out.parent / "papers"
+    figures.mkdir(parents=True, exist_ok=True)
+    claims: list[Claim] = []
+    with tqdm(STEPS, desc="papers", disable=None, delay=2, leave=False) as bar:
+        for step in bar:
+            bar.set_description(step.__name__)
+            claims += step(figures, size)
+    rows = [asdict(claim) for claim in claims]
+    scratch = out.with_name(f".{out.name}.{os.getpid()}")
+    scratch.write_text(json.dumps(rows, indent=2) + "\n")
+    os.replace(scratch, out)
+    for claim in claims:
+        print(claim)
+    print(f"{out}: {sum(claim.holds for claim in claims)} of {len(claims)} claims hold; figures in {figures}")
+    return rows

@@ -1,0 +1,186 @@
+"""The pictures that the READMEs show, made again from what the RTL does: ``python -m scripts.pictures``.
+
+docs/head.png              the default head, every pixel out of the RTL
+docs/forms.png             P1's form and the refined one, and their errors
+docs/degrees.png           which degree the planner gives to which pixel
+docs/datapath.svg          shade_poly_span, formats and latencies from the contract
+docs/timing_poly_span.svg  its streams, from a waveform
+docs/timing_horner_seq.svg the evaluator of P1, Fig. 9, step by step, from a waveform
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from tqdm import tqdm
+
+from golden import contract as k
+from golden import poly
+from scripts import svg, waves
+from scripts.papers import p1_arithmetic, p1_face
+from scripts.sources import ROOT
+from sim import frame
+from sim.scene.camera import Camera
+
+DOCS = ROOT / "docs"
+ONE = 1 << k.INTENSITY_F
+GREY = "#5b6670"
+
+
+def head(path: Path) -> None:
+    """The default head, 1024 x 1024."""
+    made = frame.render(frame.Settings(camera=Camera(1024)))
+    made.picture(made.intensity).save(path, optimize=True)
+
+
+def forms(path: Path) -> None:
+    """The head in both forms, and their errors."""
+    made = {form: frame.render(frame.Settings(camera=Camera(768), form=form)) for form in frame.FORMS}
+    p1_face.draw_forms(path, made["paper"], made["refined"])
+    Image.open(path).convert("RGB").save(path, optimize=True)
+
+
+def degrees(path: Path) -> None:
+    """The degree of every pixel, for a soft and for a sharp highlight."""
+    p1_face.draw_degrees(path, 1024, (32, 128))
+    Image.open(path).convert("RGB").quantize(256).save(path, optimize=True)
+
+
+def datapath(path: Path) -> None:
+    """The blocks of ``shade_poly_span``."""
+    made = svg.Svg(1060, 318)
+    made.text(24, 32, "shade_poly_span", 16, "start", font_weight="bold")
+    made.text(24, 51, "one pixel a clock, no bubble between spans; the pipeline never stalls", 12, "start", fill=GREY)
+    top, height = 112, 100
+    middle, bottom = top + height / 2, top + height
+    blocks = {  # x, width, two lines, clocks
+        "span_walk": (112, 130, "pixel by pixel:", "t = j 2⁻ᵏ", "a token a clock"),
+        "coef": (322, 130, "A, B, C, D by", "shifts and adds", f"{k.LATENCY_COEF} clocks"),
+        "horner_pipe or fdiff": (
+            536,
+            156,
+            "((A t + B) t + C) t + D",
+            "or three additions",
+            f"{k.LATENCY_HORNER_PIPE} or {k.LATENCY_FDIFF} clocks",
+        ),
+        "clamp": (756, 80, "to 0 ..", "1 − 2⁻¹⁶", "1 clock"),
+        "fifo": (892, 80, f"{1 << k.FIFO_LOG2}", "pixels", f"{k.LATENCY_FIFO} clocks"),
+    }
+    walk, coef, evaluator, clamp, fifo = blocks.values()
+    for x, width, *_ in (coef, evaluator, clamp):
+        made.box(x + 8, top - 8, width, height, "#f6fafa")  # the second channel, behind the first
+    made.text(coef[0] + 3, top - 17, "for each of two channels: diffuse, specular", 11, "start", fill=GREY)
+    for name, (x, width, *lines, clocks) in blocks.items():
+        made.box(x, top, width, height)
+        made.text(x + width / 2, top + 22, name, 13, font_weight="bold")
+        for i, words in enumerate(lines):
+            made.text(x + width / 2, top + 46 + 17 * i, words, 12)
+        made.text(x + width / 2, bottom - 10, clocks, 11, fill=GREY)
+
+    def link(start: float, end: float, *words: str) -> None:
+        made.arrow(f"M{start} {middle}H{end}")
+        for i, each in enumerate(reversed(words)):
+            made.text((start + end) / 2 - 3, middle - 7 - 14 * i, each, 10.5)
+
+    link(22, walk[0], "spans", "AXI4-Stream")
+    link(sum(walk[:2]), coef[0], "8 nodes", "S1.16")
+    link(sum(coef[:2]) + 8, evaluator[0], "A, B, C", "S8.16")
+    link(sum(evaluator[:2]) + 8, clamp[0], "S10.16")
+    link(sum(clamp[:2]) + 8, fifo[0], "U0.16")
+    link(sum(fifo[:2]), 1046, "pixels", "AXI4-Stream")
+
+    tokens, credits, into = bottom + 32, bottom + 70, evaluator[0] + 60
+    made.arrow(f"M{walk[0] + 90} {bottom}V{tokens}H{fifo[0] + 24}V{bottom}")
+    made.arrow(f"M{into} {tokens}V{bottom}")
+    made.text((walk[0] + 90 + into) / 2, tokens - 6, "t, first, last, tag", 10.5)
+    made.text((into + fifo[0] + 24) / 2, tokens - 6, "last, tag", 10.5)
+    made.arrow(f"M{fifo[0] + 56} {bottom}V{credits}H{walk[0] + 40}V{bottom}", dash="5 4")
+    words = "credits: a pixel is started only when a place in the FIFO is free"
+    made.text((walk[0] + 40 + fifo[0] + 56) / 2, credits - 6, words, 11)
+    made.save(path)
+
+
+def timing_poly_span(path: Path) -> None:
+    """Three spans, of 5 (cubic), 2 (lit directly) and 3 pixels (parabola), in and out."""
+    nodes = np.zeros((3, k.CHANNELS, k.NODE_COUNT))
+    nodes[0, 0], nodes[1, 0, :2], nodes[2, 0, :3] = (0.20, 0.32, 0.48, 0.75), (0.90, 0.85), (0.50, 0.70, 0.40)
+    count, degree, tag = np.array([5, 2, 3]), np.array([3, 0, 2]), np.array([7, 8, 9])
+    beats = poly.pack_spans(np.rint(nodes * ONE).astype(int), degree, count, tag)
+    span, pixel = "s_axis_span_t", "m_axis_pixel_t"
+    names = [span + "valid", span + "ready", span + "data", "valid", "t"]
+    names += [pixel + name for name in ("valid", "ready", "data", "user", "last")]
+    run, wave = waves.record("shade_poly_span", names, s_axis_span_tdata=beats)
+    wave = {name: values[: run.clocks + 1].tolist() for name, values in wave.items()}
+
+    def bus(name: str, valid: str, word: Callable[[int], str]) -> list[str]:
+        return [word(value) if used else "" for used, value in zip(wave[valid], wave[name], strict=True)]
+
+    given = wave[pixel + "valid"]
+    rows = [
+        (span + "valid", wave[span + "valid"]),
+        (span + "ready", wave[span + "ready"]),
+        ("span tdata, tag", bus(span + "data", span + "valid", lambda data: str(data >> k.SPAN_TAG_LSB))),
+        ("t of a token", bus("t", "valid", lambda t: str(Fraction(t, 1 << k.T_F)))),
+        (pixel + "valid", given),
+        (pixel + "ready", wave[pixel + "ready"]),
+        ("pixel tdata, diffuse", bus(pixel + "data", pixel + "valid", lambda data: f"{(data & 0xFFFF) / ONE:.2f}")),
+        ("pixel tuser, tag", bus(pixel + "user", pixel + "valid", str)),
+        (pixel + "last", [valid & last for valid, last in zip(given, wave[pixel + "last"], strict=True)]),
+    ]
+    latency, busy = run.given[0] - run.taken[0], run.given[-1] - run.given[0] + 1
+    title = f"shade_poly_span: spans of 5, 2 and 3 pixels leave as {len(run.given)} pixels in {busy} clocks"
+    marks = {f"{latency} clocks from span to first pixel": (run.taken[0], run.given[0])}
+    svg.timing(rows, 26, title, marks).save(path)
+
+
+def timing_horner_seq(path: Path) -> None:
+    """Two values through the evaluator of P1, Fig. 9: what its multiplexers pass and what its register holds."""
+    coefficients = np.rint(np.array([[0.5, -1, 0.75, 0.25]] * 2) * ONE).astype(int)
+    run, wave = p1_arithmetic.record_seq(coefficients, np.array([ONE // 2, ONE // 4]))
+    wave = {name: values[: run.clocks] for name, values in wave.items()}
+    step, rg = wave["step_q"], wave["rg_q"]
+    a, _, c, d = coefficients[0] << k.HORNER_GUARD
+    half_ulp = ONE << k.HORNER_GUARD - 1  # that D brings along
+
+    def passed(name: str, used: np.ndarray, **inputs: np.ndarray) -> list[str]:
+        """Which input a multiplexer passes, told by the value at its output."""
+        words = np.select([wave[name] == value for value in inputs.values()], list(inputs), "?")
+        return np.where(used, words, "").tolist()
+
+    multiply = np.isin(step, (1, 2, 4))
+    rows = [
+        *((name, wave[name].tolist()) for name in ("valid_i", "ready_o")),
+        ("step", np.select([step > 0, wave["valid_i"] > 0], [step.astype(str), "load"], "").tolist()),
+        ("MX1", passed("mx1", multiply, A=a, RG=rg)),
+        ("BK", passed("bk", step > 0, zero=0, **{"pass": rg})),
+        ("MX2", passed("mx2", step > 0, MUL=wave["mul"], C=c << k.T_F, D=(d << k.T_F) + half_ulp)),
+        ("RG", ["", *(f"{value / (ONE << k.HORNER_GUARD):.4g}".replace("-", "−") for value in rg[1:])]),
+        ("valid_o", wave["valid_o"].tolist()),
+    ]
+    title = "shade_horner_seq: A = 1/2, B = −1, C = 3/4, D = 1/4 at t = 1/2, then at t = 1/4"
+    first, second = run.taken
+    svg.timing(rows, 62, title, {f"{second - first} clocks a value": (first, second)}).save(path)
+
+
+def main() -> None:
+    """Make all pictures."""
+    DOCS.mkdir(exist_ok=True)
+    made = {
+        "head.png": head,
+        "forms.png": forms,
+        "degrees.png": degrees,
+        "datapath.svg": datapath,
+        "timing_poly_span.svg": timing_poly_span,
+        "timing_horner_seq.svg": timing_horner_seq,
+    }
+    for name, draw in tqdm(made.items(), desc="pictures", disable=None, delay=2, leave=False):
+        draw(DOCS / name)
+    print(f"{DOCS}: {', '.join(made)}")
+
+
+if __name__ == "__main__":
+    main()

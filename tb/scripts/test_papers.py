@@ -1,0 +1,145 @@
+"""The report on the papers at a small size: its shape, its figures, and numbers that are known by hand."""
+
+import json
+import math
+from dataclasses import asdict
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from golden import contract as k
+from golden.reference import poly as reference
+from scripts import papers, svg, waves
+from scripts.papers.claims import check, nmse
+from scripts.papers.p1_arithmetic import signed_digits
+
+SIZE = 128
+KEYS = ["paper", "claim", "claimed", "measured", "holds"]
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    """The folder of a whole report, and its rows."""
+    out = tmp_path_factory.mktemp("build") / "papers.json"
+    rows = papers.main(out, size=SIZE)
+    return out, rows
+
+
+def row(rows: list[dict], *words: str) -> dict:
+    """The one row whose claim has all the words."""
+    (found,) = (each for each in rows if all(word in each["claim"] for word in words))
+    return found
+
+
+def test_rows(report):
+    out, rows = report
+    assert json.loads(out.read_text()) == rows
+    assert len(rows) > 50
+    assert len({each["claim"] for each in rows}) == len(rows)
+    for each in rows:
+        assert list(each)[: len(KEYS)] == KEYS
+        assert all(math.isfinite(each[name]) for name in ("claimed", "measured"))
+        assert isinstance(each["holds"], bool)
+        assert each["kind"] in ("paper", "defect", "repair")
+    assert [path.name for path in out.parent.iterdir() if path.name.startswith(".")] == []
+
+
+def test_figures(report):
+    out, rows = report
+    drawn = {path.name: path.read_bytes() for path in (out.parent / "papers").iterdir()}
+    assert {each["figure"] for each in rows} - {None} <= set(drawn)
+    assert all(content.startswith(b"\x89PNG") and len(content) > 10_000 for content in drawn.values())
+
+
+@pytest.mark.parametrize(
+    ("words", "measured"),
+    [
+        (("Fig. 7: relative error",), 100 / 128),
+        (("relative error with 3 adders",), 2.0**-16),
+        (("relative error with 4 adders",), 2.0**-32),
+        (("constant intensity 1 ", "A, "), 0.1875),
+        (("constant intensity 1 ", "C, "), 11 / 128),
+        (("constant intensity 1 ", "I(1), "), 1 + 0.1875 + 11 / 128),
+        (("times up to",), 24),
+        (("more convenient",), 18),
+        (("clocks a value", "five steps"), 6),
+        (("differ from the golden model",), 0),
+    ],
+)
+def test_known_values(report, words, measured):
+    assert row(report[1], *words)["measured"] == pytest.approx(measured, rel=1e-9)
+
+
+def test_constant_is_27_percent_too_bright(report):
+    found = row(report[1], "too bright")
+    assert found["holds"]
+    assert found["measured"] == pytest.approx(100 * (0.1875 + 11 / 128), abs=0.01)  # 1 ulp of 1/2 is 0.003 %
+
+
+def test_what_cannot_hold_is_reported(report):
+    assert not row(report[1], "as printed", "diffuse")["holds"]
+    assert row(report[1], "adaptive method, refined", "worst")["holds"]
+
+
+def test_relations():
+    relation = {
+        claimed: check("x", claimed, 0.0142, paper="P").holds for claimed in ("= 1.4e-2", "= 1.3e-2", ">= 0.0142")
+    }
+    assert relation == {"= 1.4e-2": True, "= 1.3e-2": False, ">= 0.0142": True}
+    assert not check("x", "<= 1e-4", 1.1e-4, paper="P").holds
+    assert list(asdict(check("x", "= 1", 1, paper="P")))[: len(KEYS)] == KEYS
+
+
+def test_nmse():
+    assert nmse(np.array([1.0, 2.5]), np.array([1.0, 2.0])) == pytest.approx(0.25 / 5)
+
+
+def test_signed_digits():
+    """Against the definition: the fewest terms +-2^k with this sum, found by search."""
+    reach = {0: {0}}
+    powers = [sign << shift if sign > 0 else -(1 << shift) for shift in range(7) for sign in (1, -1)]
+    for terms in (1, 2, 3):
+        reach[terms] = {value + power for value in reach[terms - 1] for power in powers}
+    for factor in range(40):
+        assert signed_digits(factor) == min(terms for terms, values in reach.items() if factor in values)
+
+
+@pytest.mark.parametrize("nodes", [k.NODES_LEFT, k.NODES_RIGHT])
+@pytest.mark.parametrize("form", [k.FORM_PAPER, k.FORM_REFINED])
+def test_reference_reproduces_cubics(nodes, form):
+    cubic = (0.5, -1.25, 0.75, 0.125)
+    intensity = reference.horner(cubic, np.array(reference.NODES[nodes][3]))
+    assert np.allclose(reference.coef(3, intensity, nodes=nodes, form=form), cubic, atol=1e-13)
+
+
+def test_waves(tmp_path):
+    """Values that the rising edges see: three clocks of reset, then clocks 0 and 1; names below the module."""
+    changes = "".join(
+        f"#{2 * clock}\n0!\nb{value:b} $\n{value & 1}%\n#{2 * clock + 1}\n1!\n"
+        for clock, value in enumerate([0, 0, 0, 5, 6])
+    )
+    (tmp_path / "m.vcd").write_text(
+        "$timescale 1ps $end\n$scope module TOP $end\n$scope module m $end\n$var wire 1 ! clk_i $end\n"
+        "$scope module u_x $end\n$var wire 3 $ x_q [2:0] $end\n$upscope $end\n$var wire 1 % y $end\n"
+        f"$upscope $end\n$upscope $end\n$enddefinitions $end\n\n{changes}"
+    )
+    wave = waves.read(tmp_path / "m.vcd", ["u_x.x_q", "y"])
+    assert {name: values.tolist() for name, values in wave.items()} == {"u_x.x_q": [5, 6], "y": [1, 0]}
+    assert waves.read(tmp_path / "m.vcd", ["u_x.x_q"], signed=["u_x.x_q"])["u_x.x_q"].tolist() == [-3, -2]
+    with pytest.raises(KeyError):
+        waves.read(tmp_path / "m.vcd", ["z"])
+
+
+def test_record_agrees_with_the_run():
+    run, wave = waves.record("shade_third", ["valid_o", "y_o"], signed=["y_o"], x_i=np.arange(-30, 30))
+    assert wave["y_o"][run.given].tolist() == run.y_o.tolist()
+    assert np.flatnonzero(wave["valid_o"]).tolist() == run.given.tolist()
+
+
+def test_timing_diagram(tmp_path):
+    rows = [("valid", [0, 1, 1]), ("word", ["", "a < b", "a < b"])]
+    svg.timing(rows, 30, "title", {"2 clocks": (1, 3)}).save(tmp_path / "t.svg")
+    texts = [each.text for each in ElementTree.parse(tmp_path / "t.svg").iter() if each.tag.endswith("text")]
+    assert texts.count("a < b") == 1  # equal neighbours are one word
+    assert {"title", "clk_i", "valid", "2 clocks"} <= set(texts)

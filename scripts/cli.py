@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -9,14 +11,17 @@ import click
 
 from golden.reference.light import MODELS
 from scripts.sources import BUILD
-from sim import frame
+from sim import SimulationError, frame
 from sim.errors import UserError
 from sim.scene.camera import PROJECTIONS, Camera
 
 VIEW = Camera()
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110, "show_default": True})
+@click.group(
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110, "show_default": True},
+    no_args_is_help=False,
+)
 @click.version_option(package_name="polyshade")
 def cli() -> None:
     """Polynomial shading in synthesizable SystemVerilog, equal to its golden model bit for bit."""
@@ -40,7 +45,7 @@ def cli() -> None:
 @click.option("--pitch", default=VIEW.pitch, help="Degrees, tips the mesh's top to the viewer.")
 @click.option("--zoom", default=VIEW.zoom, help="Factor on the fitted scale.")
 @click.option("--field-of-view", default=VIEW.field_of_view, help="Degrees, of a perspective view.")
-@click.option("--out", type=click.Path(path_type=Path), default=None, help="Folder.  [default: build/render/<mesh>]")
+@click.option("--out", default=None, help="Folder.  [default: build/render/<mesh>]")
 def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, field_of_view: float, **options) -> None:
     """One frame through the RTL: image.png, reference.png, difference.png, report.json.
 
@@ -51,24 +56,29 @@ def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, fi
         raise UserError(f"--path: {path!r} is none of poly")
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
     settings = frame.Settings(camera=camera, **options)
-    out = out or BUILD / "render" / Path(settings.mesh).stem
-    if out.exists() and not out.is_dir():
-        raise UserError(f"--out {out}: is a file, allowed a folder")
-    picture = frame.render(settings)
-    picture.save(out)
-    report = picture.report
+    if out is not None and (not out or "\0" in out or (os.path.exists(out) and not os.path.isdir(out))):
+        raise UserError(f"--out {out!r}: is no folder, allowed a folder or a new name")
+    folder = BUILD / "render" / Path(settings.mesh).stem if out is None else Path(out)
+    try:
+        picture = frame.render(settings)
+    except SimulationError as error:
+        click.echo(f"{error}; again with a waveform: WAVES=1 {rerun()}", err=True)
+        sys.exit(1)
+    picture.save(folder)
+    report, image = picture.report, click.format_filename(folder / "image.png")
     click.echo(
-        f"{out}/image.png: {report['pixels']} pixels of {report['spans']} spans in {report['cycles']} clocks, "
+        f"{image}: {report['pixels']} pixels of {report['spans']} spans in {report['cycles']} clocks, "
         f"{report['mismatches']} mismatches, NMSE {report['nmse'] or 0:.1e}"
     )
     if report["mismatches"]:
-        click.echo(f"first mismatch: {report['first_mismatch']}; again with a waveform: WAVES=1 {rerun()}", err=True)
+        first = ", ".join(f"{name} {value}" for name, value in report["first_mismatch"].items())
+        click.echo(f"first mismatch: {first}; again with a waveform: WAVES=1 {rerun()}", err=True)
         sys.exit(1)
 
 
 def rerun() -> str:
-    """The command line that was typed."""
-    return " ".join(["polyshade", *sys.argv[1:]])
+    """The command line that was typed, to be pasted into a shell."""
+    return shlex.join(["polyshade", *sys.argv[1:]])
 
 
 @cli.command()
@@ -115,10 +125,12 @@ def main(arguments: list[str] | None = None) -> None:
         message = str(error)
     except click.ClickException as error:
         message = f"{error.format_message()} (see polyshade --help)"
+    except OSError as error:  # a disk that is full, a folder that cannot be written, a compiler that is missing
+        message = str(error)
     except (KeyboardInterrupt, click.Abort):
         click.echo("polyshade: interrupted", err=True)
         sys.exit(130)
-    click.echo(f"polyshade: error: {' '.join(message.split())}", err=True)
+    click.echo(f"polyshade: error: {UserError(message)}", err=True)
     sys.exit(2)
 
 

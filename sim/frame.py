@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
+import tempfile
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -61,8 +61,8 @@ class Settings:
         for name, (low, high) in RANGES.items():
             if not low <= getattr(self, name) <= high:  # also refuses NaN
                 raise UserError(f"--{name}: {getattr(self, name)} is out of range, allowed is {low} to {high}")
-        if not (np.isfinite(self.light).all() and 1e-6 < np.linalg.norm(self.light) < 1e6):
-            raise UserError(f"--light: {self.light} is no direction, allowed are finite numbers, not all of them 0")
+        if not 1e-6 < np.abs(self.light).max() < 1e6:  # also refuses NaN
+            raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
 
 
 @dataclass(frozen=True)
@@ -99,19 +99,19 @@ class Frame:
             "reference.png": self.picture(self.exact),
             "difference.png": self.difference(),
         }
-        scratch = folder.parent / f".{folder.name}.{os.getpid()}"
+        names = [*files, "report.json"]
         try:
-            scratch.mkdir(parents=True)
-            for name, image in files.items():
-                image.save(scratch / name)
-            (scratch / "report.json").write_text(json.dumps(self.report, indent=2) + "\n")
-            folder.mkdir(exist_ok=True)
-            for name in [*files, "report.json"]:
-                os.replace(scratch / name, folder / name)
+            folder.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(prefix=".polyshade-", dir=folder) as scratch:
+                for name, image in files.items():
+                    image.save(Path(scratch, name))
+                Path(scratch, names[-1]).write_text(json.dumps(self.report, indent=2) + "\n")
+                if taken := [name for name in names if (folder / name).is_dir()]:
+                    raise UserError(f"--out {folder}: {taken[0]} in it is a folder, allowed a file or nothing")
+                for name in names:
+                    os.replace(Path(scratch, name), folder / name)
         except OSError as error:
             raise UserError(f"--out {folder}: cannot be written ({error.strerror})") from error
-        finally:
-            shutil.rmtree(scratch, ignore_errors=True)
 
 
 def plan_spans(spans: Spans, settings: Settings) -> plan.Records:
@@ -168,13 +168,13 @@ def render(settings: Settings) -> Frame:
         stage("simulate")
         model = sim.load("shade_poly_span", EVALUATOR=EVALUATORS[settings.evaluator], FORM=FORMS[settings.form])
         simulated = time.perf_counter()
-        run = model.run(s_axis_span_tdata=beats) if len(records) else None
+        run = model.run(s_axis_span_tdata=beats)
         simulated = time.perf_counter() - simulated
         stage("compare")
         golden, owner = poly.poly_span(
             nodes, records.degree, records.count, evaluator=EVALUATORS[settings.evaluator], form=FORMS[settings.form]
         )
-        pixels, mismatch = _compare(run, golden, tag[owner], owner)
+        pixels, mismatch = _compare(run, beats, golden, tag, owner)
         stage("reference")
         every = expand(spans, size)
         normal = spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
@@ -182,7 +182,6 @@ def render(settings: Settings) -> Frame:
         exact = light.clip(0, 1)
 
     intensity = pixels / ONE
-    cycles = run.clocks if run else 0
     report = {
         "mesh": settings.mesh,
         "size": size,
@@ -198,32 +197,36 @@ def render(settings: Settings) -> Frame:
         "pixels": len(golden),
         "visible_pixels": int((visible >= 0).sum()),
         **mismatch,
-        "cycles": cycles,
-        "pixels_per_cycle": len(golden) / cycles if cycles else None,
+        "cycles": run.clocks,
+        "pixels_per_cycle": len(golden) / run.clocks if run.clocks else None,
         "light_evaluations": evaluations,
         "light_evaluations_per_pixel": evaluations / len(golden) if len(golden) else None,
         **errors(intensity, exact, visible),
-        "simulated_pixels_per_second": len(golden) / simulated if run else None,
+        "simulated_pixels_per_second": len(golden) / simulated,
         "wall_seconds": time.perf_counter() - began,
         "versions": tools.versions(),
     }
     return Frame(visible, intensity, exact, report, size)
 
 
-def _compare(run: sim.Run | None, golden, tag, owner) -> tuple[NDArray[np.int64], dict]:
-    """The RTL's pixels (P, 2), and ``mismatches`` with the first one in words."""
-    if run is None:
-        return golden, {"mismatches": 0}
-    last = np.r_[owner[1:] != owner[:-1], True].astype(np.int64)
-    expected = golden[:, 0] | golden[:, 1] << contract.PIXEL_W | tag << 32 | last << 48
+def _compare(run: sim.Run, beats, golden, tag, owner) -> tuple[NDArray[np.int64], dict]:
+    """The RTL's pixels (P, 2), and ``mismatches`` with the first one: its record (-1: none), input and outputs."""
+    last = np.append(np.diff(owner), 1)[: len(owner)] != 0
+    expected = golden[:, 0] | golden[:, 1] << contract.PIXEL_W | tag[owner] << 32 | last.astype(np.int64) << 48
     actual = run.m_axis_pixel_tdata | run.m_axis_pixel_tuser << 32 | run.m_axis_pixel_tlast << 48
     shared = min(len(expected), len(actual))
     wrong = np.flatnonzero(expected[:shared] != actual[:shared])
     result: dict = {"mismatches": len(wrong) + abs(len(expected) - len(actual))}
     if result["mismatches"]:
         at = int(wrong[0]) if len(wrong) else shared
-        hexadecimal = [f"{beats[at]:#015x}" if at < len(beats) else "none" for beats in (expected, actual)]
-        result["first_mismatch"] = {"pixel": at, "expected": hexadecimal[0], "actual": hexadecimal[1]}
+        record = int(owner[at]) if at < len(owner) else -1
+        result["first_mismatch"] = {
+            "pixel": at,
+            "record": record,
+            "input": f"0x{beats[record, ::-1].astype('>u4').tobytes().hex()}" if record >= 0 else "none",
+            "expected": f"{expected[at]:#015x}" if at < len(expected) else "none",
+            "actual": f"{actual[at]:#015x}" if at < len(actual) else "none",
+        }
     pixels = np.zeros_like(golden)
     pixels[:shared, 0] = actual[:shared] & 0xFFFF
     pixels[:shared, 1] = actual[:shared] >> contract.PIXEL_W & 0xFFFF

@@ -128,16 +128,17 @@ int model_run(Job* job, void** session) {
                 next++;
                 offer = false;
             }
-            if (valid && ready) {
+            const bool give = valid && ready;
+            if (give) {
                 s->given.push_back(clock);
                 s->clocks = clock + 1;
                 collect(*s->top, s->out);
             }
-            quiet = take || valid ? 0 : quiet + 1;
+            quiet = take || give ? 0 : quiet + 1;
 
             set_clock(*s->top, 1);
             s->eval();
-            if (next >= job->rows && !offer && quiet >= job->drain) break;
+            if (next >= job->rows && !valid && quiet >= job->drain) break;
             if (quiet >= job->patience + job->drain) {
                 result = 1;
                 break;

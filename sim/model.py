@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import os
 import re
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows 
 
 
 class SimulationError(Exception):
-    """The module stopped: it neither took an input nor gave an output for too long."""
+    """The module stopped: no input was taken and no output given for too long."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,11 @@ def interface(ports: list[Port]) -> Interface:
     return Interface("clk_i" in names, "rst_i" in names, into, out, status)
 
 
+def _words(port: Port) -> int:
+    """Words of 32 bits that a port's value takes."""
+    return -(-port.width // 32)
+
+
 def _glue(ports: list[Port]) -> str:
     """The C++ that knows the names of the ports; what it must define is listed in harness.cpp."""
     face = interface(ports)
@@ -80,14 +86,14 @@ def _glue(ports: list[Port]) -> str:
     def drive(port: Port, index: int) -> str:
         if port.width <= WORDS_MAX:
             return f"  t.{port.name} = static_cast<const uint64_t*>(in[{index}])[row];\n"
-        words = -(-port.width // 32)
+        words = _words(port)
         source = f"static_cast<const uint32_t*>(in[{index}]) + row * {words}"
         return f"  for (int w = 0; w < {words}; w++) t.{port.name}[w] = ({source})[w];\n"
 
     def collect(port: Port, index: int) -> str:
         if port.width <= WORDS_MAX:
             return f"  out[{index}].push_back(t.{port.name});\n"
-        return f"  for (int w = 0; w < {-(-port.width // 32)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
+        return f"  for (int w = 0; w < {_words(port)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
 
     def setter(name: str, port: str | None) -> str:
         return f"void {name}(DUT& t, int v) {{ {f't.{port} = v;' if port else '(void)t; (void)v;'} }}\n"
@@ -113,6 +119,14 @@ inline void read_status(DUT& t, uint64_t* status) {{
 {"".join(f"  status[{i}] = t.{port.name};" for i, port in enumerate(face.status))}}}
 }}
 """
+
+
+def _bits(port: Port, array: np.ndarray, rows: int) -> np.ndarray:
+    """Rows as harness.cpp reads them: (rows,) uint64, of a wide port (rows, words) uint32."""
+    array = np.broadcast_to(array, (rows, *array.shape[1:]))
+    if port.width > WORDS_MAX:
+        return np.ascontiguousarray(array, np.uint32)
+    return array.astype(np.int64, copy=False).view(np.uint64) & np.uint64((1 << port.width) - 1)
 
 
 class _Job(ctypes.Structure):
@@ -144,10 +158,10 @@ class Run:
         self.clocks, self.simulated, self.status = clocks, simulated, status
 
     def __getattr__(self, name: str) -> np.ndarray:
-        try:
-            return self.__dict__["outputs"][name]
-        except KeyError:
-            raise AttributeError(f"no output {name}, there are {', '.join(self.outputs)}") from None
+        outputs = self.__dict__.get("outputs", {})  # an object that is being copied has none yet
+        if name not in outputs:
+            raise AttributeError(f"no output {name}, there are {', '.join(outputs)}")
+        return outputs[name]
 
 
 class Model:
@@ -165,20 +179,36 @@ class Model:
     def __repr__(self) -> str:
         return f"{self.module}({', '.join(f'{name}={value}' for name, value in self.parameters.items())})"
 
-    def _input(self, port: Port, value: ArrayLike, rows: int) -> np.ndarray:
-        array = np.asarray(value)
+    def _inputs(self, inputs: dict[str, ArrayLike]) -> tuple[int, list[np.ndarray]]:
+        """The number of rows, and the inputs, checked, in the order of the ports and as harness.cpp reads them."""
+        ports = self.interface.into.data
+        names = [port.name for port in ports]
+        if set(inputs) != set(names):
+            raise UserError(f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {', '.join(names)}")
+        arrays = [self._checked(port, inputs[port.name]) for port in ports]
+        try:
+            (rows,) = np.broadcast_shapes((1,), *(array.shape[:1] for array in arrays))
+        except ValueError:
+            counts = ", ".join(f"{name} {len(array)}" for name, array in zip(names, arrays, strict=True))
+            raise UserError(f"{self.module}: numbers of rows differ, {counts}") from None
+        return rows, [_bits(port, array, rows) for port, array in zip(ports, arrays, strict=True)]
+
+    def _checked(self, port: Port, value: ArrayLike) -> np.ndarray:
+        """An input as an array (rows,), for a wide port (rows, words); a single value becomes one row."""
+        array, name = np.asarray(value), f"{self.module}.{port.name}"
+        shape = (_words(port),) if port.width > WORDS_MAX else ()
+        width, signed = (32, False) if shape else (port.width, port.signed)
+        low, high = (-(1 << width - 1), (1 << width - 1) - 1) if signed else (0, (1 << width) - 1)
         if array.dtype.kind not in "iub":
-            raise UserError(f"{self.module}.{port.name}: {array.dtype} given, allowed integers")
-        if port.width > WORDS_MAX:
-            words = -(-port.width // 32)
-            return np.ascontiguousarray(np.broadcast_to(array, (rows, words)), np.uint32)
-        low, high = (-(1 << port.width - 1), (1 << port.width - 1) - 1) if port.signed else (0, (1 << port.width) - 1)
+            raise UserError(f"{name}: {array.dtype} given, allowed integers")
+        if array.shape not in (shape, (*array.shape[:1], *shape)):
+            rows = f"({', '.join(map(str, ('rows', *shape)))})"
+            raise UserError(f"{name}: array of shape {array.shape} given, allowed {rows} or {shape or 'a number'}")
         if array.size and (array.min() < low or array.max() > high):
-            raise UserError(f"{self.module}.{port.name}: {array.min()} .. {array.max()} given, allowed {low} .. {high}")
-        bits = np.broadcast_to(array, (rows,)).astype(np.int64, copy=False).view(np.uint64)
-        if port.signed:
-            bits = bits & np.uint64((1 << port.width) - 1)
-        return np.ascontiguousarray(bits)
+            raise UserError(f"{name}: {array.min()} .. {array.max()} given, allowed {low} .. {high}")
+        if shape and (array[..., -1] >> (bits := (port.width - 1) % 32 + 1)).any():
+            raise UserError(f"{name}: the last word of a row has more than {bits} bits")
+        return array.reshape(-1, *shape)
 
     def run(
         self,
@@ -193,17 +223,16 @@ class Model:
     ) -> Run:
         """Stream arrays through the module, one row a transfer.
 
-        ``inputs``: an array (rows,) or a number for every data input, by name; ports of more than 64 bits as (rows,
-        words) of uint32. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer.
-        ``latency``: of a module without ``valid_o``. The run ends ``drain`` clocks after the last event.
-        Raises UserError for missing, unknown or out-of-range inputs, SimulationError when the module stops.
+        ``inputs``: an array (rows,) or a number for every data input, by name; of ports of more than 64 bits (rows,
+        words) or (words,) of 32 bits. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one
+        without a consumer. ``latency``: of a module without ``valid_o``. The run ends ``drain`` clocks after the last
+        transfer. Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing
+        is taken or given for ``patience`` clocks.
         """
-        face = self.interface
-        names = [port.name for port in face.into.data]
-        if set(inputs) != set(names):
-            raise UserError(f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {', '.join(names)}")
-        rows = max([1, *(len(np.asarray(inputs[n])) for n in names if np.asarray(inputs[n]).ndim)])
-        arrays = [self._input(port, inputs[port.name], rows) for port in face.into.data]
+        for option, chance in (("in_gap", in_gap), ("out_stall", out_stall)):
+            if not 0 <= chance <= 1:
+                raise UserError(f"{option}: {chance} is out of range, allowed is 0 to 1")
+        rows, arrays = self._inputs(inputs)
         pointers = (ctypes.c_void_p * max(1, len(arrays)))(*(array.ctypes.data for array in arrays))
         waves = BUILD / "waves" / f"{self.module}.vcd"
         if self.waves:
@@ -234,7 +263,7 @@ class Model:
         face = self.interface
         outputs = {}
         for index, port in enumerate(face.out.data):
-            words = 1 if port.width <= WORDS_MAX else -(-port.width // 32)
+            words = 1 if port.width <= WORDS_MAX else _words(port)
             value = column(self._library.model_out(session, index), job.given * words)
             if words > 1:
                 value = value.reshape(-1, words).astype(np.uint32)
@@ -257,8 +286,13 @@ def load(module: str, *, waves: bool | None = None, **parameters: int) -> Model:
     """The Verilated model of a module at a parameter point, compiled when first asked for.
 
     ``waves`` (default: the environment's ``WAVES=1``) writes ``build/waves/<module>.vcd`` during a run.
-    Raises UserError for an unknown module or tool, RuntimeError with the tool's words when it does not elaborate.
+    Raises UserError for an unknown module or tool, and in the words of the module for a parameter that it refuses.
     """
+    for name, value in parameters.items():
+        try:
+            parameters[name] = int(operator.index(value))
+        except TypeError:
+            raise UserError(f"{module}: {name}={value!r}, allowed integers") from None
     waves = os.environ.get("WAVES", "0") not in ("", "0") if waves is None else waves
     key = (module, tuple(sorted(parameters.items())), waves)
     if key not in _loaded:

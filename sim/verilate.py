@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scripts import tools
+from scripts.points import label
 from scripts.sources import BUILD, modules, sources
 from sim.errors import UserError
 
@@ -113,15 +114,29 @@ def _runtime(waves: bool) -> Path:
     return path
 
 
+def _cause(module: str, log: str) -> str:
+    """Why Verilator refused: what the module's own check says, or another module's, or else the first error."""
+    for pattern in (rf"-USERERROR: \S+ {module}: (.*)", r"-USERERROR: \S+ (.*)", r"^%Error[^:]*: (.*)"):
+        if found := re.search(pattern, log, re.MULTILINE):
+            return found[1]
+    return log.strip().splitlines()[-1]
+
+
 def ports(module: str, parameters: dict[str, int], scratch: Path) -> list[Port]:
-    """The ports of a module at a parameter point, in the order of its header, from Verilator's syntax tree."""
+    """The ports of a module at a parameter point, in the order of its header, from Verilator's syntax tree.
+
+    Raises UserError with the cause when the module refuses its parameters or does not elaborate.
+    """
     tree = scratch / "tree.json"
     arguments = [*(f"-G{name}={value}" for name, value in parameters.items()), "--top-module", module]
-    _run(
-        [tools.verilator().program, "--json-only", "--json-only-output", tree, "--json-only-meta-output",
-         scratch / "meta.json", "--no-timing", *arguments, *reached(module)],
-        scratch,
-    )  # fmt: skip
+    try:
+        _run(
+            [tools.verilator().program, "--json-only", "--json-only-output", tree, "--json-only-meta-output",
+             scratch / "meta.json", "--no-timing", *arguments, *reached(module)],
+            scratch,
+        )  # fmt: skip
+    except RuntimeError as error:
+        raise UserError(f"{label(module, parameters)}: {_cause(module, str(error))}") from error
     netlist = json.loads(tree.read_text())
     types = {t["addr"]: t for t in netlist["miscsp"][0]["typesp"]}
     top = next(m for m in netlist["modulesp"] if m["name"] == module)

@@ -100,7 +100,7 @@ def coefficients(folder: Path, size: int) -> Iterator[Claim]:
     cubic = rng.integers(-(1 << 8), 1 << 8, (VECTORS, 4)) << 6  # whole at t = 1/4, 1/2, 3/4 as well
     for nodes, name in ((k.NODES_LEFT, "{0, 1/4, 1/2, 1}"), (k.NODES_RIGHT, "{0, 1/2, 3/4, 1}")):
         t = np.array(reference.NODES[nodes][3])
-        found = run_coef(3, reference.horner(tuple(cubic.T[:, :, None]), t).astype(int), NODES=nodes)
+        found = run_coef(reference.horner(tuple(cubic.T[:, :, None]), t).astype(int), nodes)
         yield p1(
             f"A, B, C, D of nodes {name} solve the system: worst error on random cubics",
             "<= 0",
@@ -134,7 +134,7 @@ def coefficients(folder: Path, size: int) -> Iterator[Claim]:
     )
 
     ones = np.full((1, 4), ONE)
-    constant = run_coef(3, ones, FORM=k.FORM_PAPER)
+    constant = run_coef(ones, form=k.FORM_PAPER)
     a, _, c, _ = constant[0] / ONE
     at_one = run_horner("shade_horner_pipe", constant, np.array([ONE])).y_o[0] / ONE
     about = partial(p1, kind="defect", figure="p1_line.png")
@@ -144,14 +144,14 @@ def coefficients(folder: Path, size: int) -> Iterator[Claim]:
         "constant intensity 1 with the x/3 of Fig. 7: I(1), which should be 1", "= 1.273", at_one, note="RTL, unclamped"
     )
     corner = np.array([[0, ONE, 0, ONE]])
-    amplified = (run_coef(3, corner, FORM=k.FORM_PAPER) - run_coef(3, corner))[0, 0] / ONE
+    amplified = (run_coef(corner, form=k.FORM_PAPER) - run_coef(corner))[0, 0] / ONE
     yield about(
         "the 0.78 % of x/3 enter A as an error of the intensity, times up to",
         "= 72",
         amplified / (1 / 128),
         note="RTL, I2 = I4 = 1: what P1 divides is 72, a third of it 24, so A is wrong by 24/128 of the intensity",
     )
-    refined = run_coef(3, ones)
+    refined = run_coef(ones)
     at_one = run_horner("shade_horner_pipe", refined, np.array([ONE])).y_o[0] / ONE
     yield p1(
         "difference form on a constant intensity 1: error of I(1)", "<= 0", abs(at_one - 1), kind="repair", note="RTL"
@@ -226,10 +226,11 @@ def evaluator(folder: Path, size: int) -> Iterator[Claim]:
     )
 
 
-def run_coef(degree: int, nodes: np.ndarray, **parameters: int) -> np.ndarray:
-    """(R, 4): A, B, C, D of ``shade_coef`` for intensities (R, 4)."""
-    i1, i2, i3, i4 = nodes.T
-    run = sim.load("shade_coef", **parameters).run(degree_i=degree, i1_i=i1, i2_i=i2, i3_i=i3, i4_i=i4)
+def run_coef(intensity: np.ndarray, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> np.ndarray:
+    """(R, 4): A, B, C, D of ``shade_coef`` for the cubics through intensities (R, 4)."""
+    i1, i2, i3, i4 = intensity.T
+    unit = sim.load("shade_coef", NODES=nodes, FORM=form)
+    run = unit.run(degree_i=k.DEGREE_CUBIC, i1_i=i1, i2_i=i2, i3_i=i3, i4_i=i4)
     return np.stack([run.a_o, run.b_o, run.c_o, run.d_o], axis=1)
 
 

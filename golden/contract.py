@@ -39,7 +39,30 @@ RSQRT_INDEX_W = 7  # table: 96 segments of 1/32 over [1, 4), addressed by the fi
 RSQRT_C0_F = 22  # coefficients of a segment's parabola in d, the distance from its middle
 RSQRT_C1_F = 18
 RSQRT_C2_F = 12
+RSQRT_C2_W = 11  # c2 < 1/2
 RSQRT_D_F = 23  # d is S-6.23 in [-1/64, 1/64): 18 bits
+
+# ---- normals ---------------------------------------------------------------------------------------------------
+DOT_W = 21  # S4.16, a dot product: at most 3 * 2 * 2 = 12
+INVC_F = 17  # U0.17, what the sum of two normals is multiplied by
+SQUARE_F = 18  # fraction bits that are kept of a squared cosine
+ETA_W = 20  # S1.18, criterion of a triangle and its threshold
+ETA_F = 18
+CONSTANT_F = 16  # fraction bits of the following constants
+INVC_0, INVC_C, INVC_UU = 40768, -8000, 4240  # 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
+INVC1_0, INVC1_C = 44761, -12517  # 0.683 - 0.191 c
+INVC2_0, INVC2_C, INVC2_CC = 46072, -19661, 6423  # 0.703 - 0.3 c + 0.098 c^2
+HALF_UU = -2304  # 1 - u/4 - 9 u^2/256 = 0.75 + 0.25 c - 9 u^2/256
+D2_NEAR_0, D2_NEAR_C = 49152, 16384  # 0.75 + 0.25 c
+D2_FAR_0, D2_FAR_C = 46662, 19988  # 0.712 + 0.305 c
+D2_LIMIT = 46340  # floor(2^16 cos(pi/4)): up to here the second
+D1_0, D1_C, D1_M = 58589, 3932, 459  # 0.894 + 0.06 c + 0.007 m
+METRIC_M_MIN = 3  # m, the sectors of a line, for which d1a holds
+METRIC_M_MAX = 12
+METRIC_THRESHOLD = 58982  # 0.9: a shorter middle is normalized
+ETA_U, ETA_UU, ETA_UUUU = 16384, 2240, 576  # u/4 + 35 u^2/1024 + 9 u^4/1024
+ETA1_0, ETA1_C = 18708, -19053  # 0.28546133 - 0.29073021 c
+ETA2_0, ETA2_C, ETA2_CC = 19152, -22362, 3239  # 0.29222919 - 0.34122087 c + 0.04942337 c^2
 
 # ---- spans -----------------------------------------------------------------------------------------------------
 CHANNELS = 2  # diffuse, specular
@@ -68,8 +91,18 @@ LATENCY_HORNER_PIPE = 3 * LATENCY_HORNER_STEP
 LATENCY_HORNER_SEQ = 6  # clocks a value: load and the five steps of P1, Fig. 9
 LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the rounding
 LATENCY_FIFO = 2  # memory, output register
-LATENCY_RSQRT = 2 + 1 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
+LATENCY_RSQRT = 2 + 2 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
 LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
+LATENCY_WEIGH = 4  # a tree of adders
+LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders
+LATENCY_HALF = 1 + LATENCY_WEIGH  # the choice of a straight line
+LATENCY_INVC = 1 + LATENCY_MUL + LATENCY_WEIGH  # 1 - c, its square
+LATENCY_SCALE3 = LATENCY_MUL + 1  # products, rounding
+LATENCY_SCALE3_FOLDED = 3 + LATENCY_SCALE3  # the operands' register, two more turns of the multiplier
+LATENCY_MIDPOINT = LATENCY_INVC + LATENCY_SCALE3
+LATENCY_NODE_CHAIN = 2 * LATENCY_INVC + LATENCY_SCALE3
+LATENCY_METRIC = 1 + LATENCY_HALF + 1  # clamps, decisions
+LATENCY_CRITERION = 1 + 2 * LATENCY_MUL + 2 + LATENCY_WEIGH + 1  # u, u^2, u^4, sums of the edges, decision
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 

@@ -40,7 +40,44 @@ package shade_pkg;
   localparam int RSQRT_C0_F = 22;  // coefficients of a segment's parabola in d, the distance from its middle
   localparam int RSQRT_C1_F = 18;
   localparam int RSQRT_C2_F = 12;
+  localparam int RSQRT_C2_W = 11;  // c2 < 1/2
   localparam int RSQRT_D_F = 23;  // d is S-6.23 in [-1/64, 1/64): 18 bits
+
+  // normals
+  localparam int DOT_W = 21;  // S4.16, a dot product: at most 3 * 2 * 2 = 12
+  localparam int INVC_F = 17;  // U0.17, what the sum of two normals is multiplied by
+  localparam int SQUARE_F = 18;  // fraction bits that are kept of a squared cosine
+  localparam int ETA_W = 20;  // S1.18, criterion of a triangle and its threshold
+  localparam int ETA_F = 18;
+  localparam int CONSTANT_F = 16;  // fraction bits of the following constants
+  localparam int INVC_0 = 40768;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
+  localparam int INVC_C = -8000;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
+  localparam int INVC_UU = 4240;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
+  localparam int INVC1_0 = 44761;  // 0.683 - 0.191 c
+  localparam int INVC1_C = -12517;  // 0.683 - 0.191 c
+  localparam int INVC2_0 = 46072;  // 0.703 - 0.3 c + 0.098 c^2
+  localparam int INVC2_C = -19661;  // 0.703 - 0.3 c + 0.098 c^2
+  localparam int INVC2_CC = 6423;  // 0.703 - 0.3 c + 0.098 c^2
+  localparam int HALF_UU = -2304;  // 1 - u/4 - 9 u^2/256 = 0.75 + 0.25 c - 9 u^2/256
+  localparam int D2_NEAR_0 = 49152;  // 0.75 + 0.25 c
+  localparam int D2_NEAR_C = 16384;  // 0.75 + 0.25 c
+  localparam int D2_FAR_0 = 46662;  // 0.712 + 0.305 c
+  localparam int D2_FAR_C = 19988;  // 0.712 + 0.305 c
+  localparam int D2_LIMIT = 46340;  // floor(2^16 cos(pi/4)): up to here the second
+  localparam int D1_0 = 58589;  // 0.894 + 0.06 c + 0.007 m
+  localparam int D1_C = 3932;  // 0.894 + 0.06 c + 0.007 m
+  localparam int D1_M = 459;  // 0.894 + 0.06 c + 0.007 m
+  localparam int METRIC_M_MIN = 3;  // m, the sectors of a line, for which d1a holds
+  localparam int METRIC_M_MAX = 12;
+  localparam int METRIC_THRESHOLD = 58982;  // 0.9: a shorter middle is normalized
+  localparam int ETA_U = 16384;  // u/4 + 35 u^2/1024 + 9 u^4/1024
+  localparam int ETA_UU = 2240;  // u/4 + 35 u^2/1024 + 9 u^4/1024
+  localparam int ETA_UUUU = 576;  // u/4 + 35 u^2/1024 + 9 u^4/1024
+  localparam int ETA1_0 = 18708;  // 0.28546133 - 0.29073021 c
+  localparam int ETA1_C = -19053;  // 0.28546133 - 0.29073021 c
+  localparam int ETA2_0 = 19152;  // 0.29222919 - 0.34122087 c + 0.04942337 c^2
+  localparam int ETA2_C = -22362;  // 0.29222919 - 0.34122087 c + 0.04942337 c^2
+  localparam int ETA2_CC = 3239;  // 0.29222919 - 0.34122087 c + 0.04942337 c^2
 
   // spans
   localparam int CHANNELS = 2;  // diffuse, specular
@@ -69,8 +106,18 @@ package shade_pkg;
   localparam int LATENCY_HORNER_SEQ = 6;  // clocks a value: load and the five steps of P1, Fig. 9
   localparam int LATENCY_FDIFF = 6;  // two shifter levels, two adder levels, the state, the rounding
   localparam int LATENCY_FIFO = 2;  // memory, output register
-  localparam int LATENCY_RSQRT = 9;  // two shifter levels, the table, two steps of Horner's scheme
-  localparam int LATENCY_NORMALIZE = 18;  // squares, sums, 1/root, shift, products
+  localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
+  localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
+  localparam int LATENCY_WEIGH = 4;  // a tree of adders
+  localparam int LATENCY_DOT3 = 4;  // products, two adders
+  localparam int LATENCY_HALF = 5;  // the choice of a straight line
+  localparam int LATENCY_INVC = 7;  // 1 - c, its square
+  localparam int LATENCY_SCALE3 = 3;  // products, rounding
+  localparam int LATENCY_SCALE3_FOLDED = 6;  // the operands' register, two more turns of the multiplier
+  localparam int LATENCY_MIDPOINT = 10;
+  localparam int LATENCY_NODE_CHAIN = 17;
+  localparam int LATENCY_METRIC = 7;  // clamps, decisions
+  localparam int LATENCY_CRITERION = 12;  // u, u^2, u^4, sums of the edges, decision
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 

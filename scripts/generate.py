@@ -45,34 +45,32 @@ ROM_HEADER = """\
 // shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
 //
 // Generated from golden.fixed.rsqrt_table by `python -m scripts.generate`: change it there.
-// c0_o U0.22, with the half ulp of the result's rounding; c1_o S0.18, negative; c2_o U0.12; segments below 1 are 0.
-// Combinational: with registers behind it the table becomes block RAM or LUTs as the tool sees fit (6,400 bits).
+// row_o = {c0, c1, c2}: c0 U0.22, with the half ulp of the result's rounding; c1 S0.18, negative; c2 U0.12, 11 bits; rows below
+// segment 32 are 0. Block RAM or LUTs, as the tool sees fit (6,528 bits). Latency 1 clock, one row a clock.
 // Example: i = 32 -> c0 = 1/sqrt(1 + 1/64) + 2^-21.
 """
 
 
 def rsqrt_rom() -> str:
     """The text of the table's module."""
-    widths = {"c0": k.RSQRT_C0_F, "c1": k.RSQRT_C1_F, "c2": k.RSQRT_C2_F}
+    width = k.RSQRT_C0_F + k.RSQRT_C1_F + k.RSQRT_C2_W
     half = 1 << k.RSQRT_C0_F - k.RSQRT_F - 1
-    rows = [
-        f"      {k.RSQRT_INDEX_W}'d{i}: {{c0_o, c1_o, c2_o}} = "
-        f"{{{widths['c0']}'d{c0 + half}, -{widths['c1']}'sd{-c1}, {widths['c2']}'d{c2}}};"
-        for i, (c0, c1, c2) in enumerate(rsqrt_table().tolist())
-        if c0
-    ]
+    rows = []
+    for i, (c0, c1, c2) in enumerate(rsqrt_table().tolist()):
+        if c0:
+            upper = (c0 + half) << k.RSQRT_C1_F | c1 & (1 << k.RSQRT_C1_F) - 1
+            rows.append(f"      {k.RSQRT_INDEX_W}'d{i}: row_o <= {width}'h{upper << k.RSQRT_C2_W | c2:x};")
     return "\n".join(
         [
             f"{ROM_HEADER}module shade_rsqrt_rom (",
-            "  input  logic        [shade_pkg::RSQRT_INDEX_W-1:0] i_i,",
-            "  output logic        [   shade_pkg::RSQRT_C0_F-1:0] c0_o,",
-            "  output logic signed [   shade_pkg::RSQRT_C1_F-1:0] c1_o,",
-            "  output logic        [   shade_pkg::RSQRT_C2_F-1:0] c2_o",
+            "  input  logic                                clk_i,",
+            "  input  logic [shade_pkg::RSQRT_INDEX_W-1:0] i_i,",
+            f"  output logic [{width - 1:30d}:0] row_o",
             ");",
-            "  always_comb begin",
+            "  always_ff @(posedge clk_i) begin",
             "    case (i_i)",
             *rows,
-            "      default: {c0_o, c1_o, c2_o} = '0;",
+            "      default: row_o <= '0;",
             "    endcase",
             "  end",
             "endmodule",

@@ -8,8 +8,8 @@
 //   1/sqrt(m) = (c2 d + c1) d + c0
 //
 // c2 d is rounded to the format of c1, the result to y, to nearest, ties up; error below 1 ulp of y (measured: 0.85).
-// Reciprocals come as 1 / z = rsqrt(z)^2. Two 18 x 18 multipliers, a table of 6,400 bits.
-// Latency LATENCY_RSQRT = 9 clocks, one value a clock. Example: z = 2^32 -> y = 1, e = 16.
+// Reciprocals come as 1 / z = rsqrt(z)^2. Two 18 x 18 multipliers, a table of 6,528 bits.
+// Latency LATENCY_RSQRT = 10 clocks, one value a clock. Example: z = 2^32 -> y = 1, e = 16.
 // Source: P4 and P2 need it for normalizing, P1 for Ward's root.
 module shade_rsqrt (
   input  logic                          clk_i,
@@ -56,51 +56,54 @@ module shade_rsqrt (
   end
 
   // ---- the parabola of the segment -----------------------------------------------------------------------------
-  logic [C0_F-1:0] c0, c0_q3, c0_q8;
-  logic signed [C1_F-1:0] c1, c1_q3, c1_q5;
-  logic [C2_F-1:0] c2, c2_q3;
-  logic signed [D_W-1:0] d_q3, d_q6;
-  logic [4:0] e_q3, e_q8;
-  logic zero_q3, zero_q8;
-  shade_rsqrt_rom u_rom (.i_i(m_q2[Z_W-1-:INDEX_W]), .c0_o(c0), .c1_o(c1), .c2_o(c2));
+  localparam int C2_W = shade_pkg::RSQRT_C2_W;
+  localparam int ROW_W = C0_F + C1_F + C2_W;
+  logic [ROW_W-1:0] row_q3;
+  logic [C0_F-1:0] c0_q4, c0_q9;
+  logic signed [C1_F-1:0] c1_q4, c1_q6;
+  logic [C2_W-1:0] c2_q4;
+  logic signed [D_W-1:0] d_q3, d_q4, d_q7;
+  logic [4:0] e_q9;
+  logic zero_q9;
+  shade_rsqrt_rom u_rom (.clk_i, .i_i(m_q2[Z_W-1-:INDEX_W]), .row_o(row_q3));
+  // two registers: a block RAM's own is slow
   always_ff @(posedge clk_i) begin
-    c0_q3   <= c0;
-    c1_q3   <= c1;
-    c2_q3   <= c2;
+    {c0_q4, c1_q4, c2_q4} <= row_q3;
     // less half a segment: the first bit turned over is the sign
-    d_q3    <= {~m_q2[Z_W-INDEX_W-1], m_q2[Z_W-INDEX_W-2-:D_W-1]};
-    e_q3    <= e_q2;
-    zero_q3 <= m_q2 == '0;
+    d_q3                  <= {~m_q2[Z_W-INDEX_W-1], m_q2[Z_W-INDEX_W-2-:D_W-1]};
+    d_q4                  <= d_q3;
   end
-  shade_delay #(.WIDTH(C0_F), .DEPTH(MUL + 1 + MUL)) u_c0 (.clk_i, .d_i(c0_q3), .q_o(c0_q8));
-  shade_delay #(.WIDTH(C1_F), .DEPTH(MUL)) u_c1 (.clk_i, .d_i(c1_q3), .q_o(c1_q5));
-  shade_delay #(.WIDTH(D_W), .DEPTH(MUL + 1)) u_d (.clk_i, .d_i(d_q3), .q_o(d_q6));
-  shade_delay #(.WIDTH(6), .DEPTH(MUL + 1 + MUL)) u_e (.clk_i, .d_i({zero_q3, e_q3}), .q_o({zero_q8, e_q8}));
+  shade_delay #(.WIDTH(C0_F), .DEPTH(MUL + 1 + MUL)) u_c0 (.clk_i, .d_i(c0_q4), .q_o(c0_q9));
+  shade_delay #(.WIDTH(C1_F), .DEPTH(MUL)) u_c1 (.clk_i, .d_i(c1_q4), .q_o(c1_q6));
+  shade_delay #(.WIDTH(D_W), .DEPTH(MUL + 1)) u_d (.clk_i, .d_i(d_q4), .q_o(d_q7));
+  shade_delay #(.WIDTH(6), .DEPTH(2 + MUL + 1 + MUL)) u_e (
+    .clk_i, .d_i({m_q2 == '0, e_q2}), .q_o({zero_q9, e_q9})
+  );
 
   // c2 d + c1: the product has C2_F + D_F fraction bits, the sum C1_F; half an ulp stands below the last bit of c1
   localparam int DROP1 = C2_F + D_F - C1_F;
-  localparam int P1_W = C2_F + 1 + D_W;
+  localparam int P1_W = C2_W + 1 + D_W;
   localparam int S_W = C1_F + DROP1;
-  logic signed [P1_W-1:0] c2d_q5;
+  logic signed [P1_W-1:0] c2d_q6;
   logic signed [S_W-1:0] sum1;
-  logic signed [C1_F-1:0] s_q6;
-  shade_mul #(.A_W(C2_F + 1), .B_W(D_W)) u_c2d (.clk_i, .a_i({1'b0, c2_q3}), .b_i(d_q3), .p_o(c2d_q5));
-  assign sum1 = S_W'(c2d_q5) + $signed({c1_q5, 1'b1, {(DROP1 - 1) {1'b0}}});
-  always_ff @(posedge clk_i) s_q6 <= C1_F'(sum1 >>> DROP1);
+  logic signed [C1_F-1:0] s_q7;
+  shade_mul #(.A_W(C2_W + 1), .B_W(D_W)) u_c2d (.clk_i, .a_i({1'b0, c2_q4}), .b_i(d_q4), .p_o(c2d_q6));
+  assign sum1 = S_W'(c2d_q6) + $signed({c1_q6, 1'b1, {(DROP1 - 1) {1'b0}}});
+  always_ff @(posedge clk_i) s_q7 <= C1_F'(sum1 >>> DROP1);
 
   // (c2 d + c1) d + c0
   localparam int INNER_F = C1_F + D_F;
   localparam int DROP2 = INNER_F - shade_pkg::RSQRT_F;
   localparam int P2_W = C1_F + D_W;
   localparam int Y_W = INNER_F + 2;
-  logic signed [P2_W-1:0] sd_q8;
+  logic signed [P2_W-1:0] sd_q9;
   logic signed [Y_W-1:0] sum2;
-  shade_mul #(.A_W(C1_F), .B_W(D_W)) u_sd (.clk_i, .a_i(s_q6), .b_i(d_q6), .p_o(sd_q8));
-  assign sum2 = Y_W'(sd_q8) + (Y_W'($signed({1'b0, c0_q8})) <<< (INNER_F - C0_F));  // the half ulp is in c0
+  shade_mul #(.A_W(C1_F), .B_W(D_W)) u_sd (.clk_i, .a_i(s_q7), .b_i(d_q7), .p_o(sd_q9));
+  assign sum2 = Y_W'(sd_q9) + (Y_W'($signed({1'b0, c0_q9})) <<< (INNER_F - C0_F));  // the half ulp is in c0
   always_ff @(posedge clk_i) begin
     y_o    <= (shade_pkg::RSQRT_F + 1)'(sum2 >>> DROP2);
-    e_o    <= zero_q8 ? '0 : e_q8;
-    zero_o <= zero_q8;
+    e_o    <= zero_q9 ? '0 : e_q9;
+    zero_o <= zero_q9;
   end
 
   shade_valid #(.DEPTH(shade_pkg::LATENCY_RSQRT)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);

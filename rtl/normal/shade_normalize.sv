@@ -10,7 +10,7 @@
 //   n = w r / 2^21                    rounded once, to nearest, ties up
 //
 // w is 2 h + b: the multiplier takes the 18 bits of h, b adds r: it is 1 for |v| >= 2 only. Nine 18 x 18 multipliers for the
-// vector, two in shade_rsqrt. Latency LATENCY_NORMALIZE = 18 clocks, one vector a clock.
+// vector, two in shade_rsqrt. Latency LATENCY_NORMALIZE = 19 clocks, one vector a clock.
 // Example: v = (3, 0, 4) 2^-16 -> n = (0.6, 0, 0.8). Source: P4, section 2; P2.
 module shade_normalize (
   input  logic                                     clk_i,
@@ -43,23 +43,23 @@ module shade_normalize (
     s_q4  <= xy_q3 + zz_q3;  // at most 3 * 2^34 < 2^36
   end
 
-  logic [R_W-1:0] r_q13, r_q14, r_q15;
-  logic [4:0] e_q13;
-  logic zero_q13;
+  logic [R_W-1:0] r_q14, r_q15, r_q16;
+  logic [4:0] e_q14;
+  logic zero_q14;
   shade_rsqrt u_rsqrt (
-    .clk_i, .rst_i, .valid_i(1'b0), .z_i(s_q4), .valid_o(), .y_o(r_q13), .e_o(e_q13), .zero_o(zero_q13)
+    .clk_i, .rst_i, .valid_i(1'b0), .z_i(s_q4), .valid_o(), .y_o(r_q14), .e_o(e_q14), .zero_o(zero_q14)
   );
 
   // ---- w = v 2^(17-e), in steps of 4, then of 1 ----------------------------------------------------------------
-  logic [V_W-1:0] v_q13;
+  logic [V_W-1:0] v_q14;
   logic [4:0] shift;
-  logic [1:0] shift_q14;
-  shade_delay #(.WIDTH(V_W), .DEPTH(TO_ROOT)) u_v (.clk_i, .d_i({x_i, y_i, z_i}), .q_o(v_q13));
-  assign shift = 5'd17 - e_q13;
+  logic [1:0] shift_q15;
+  shade_delay #(.WIDTH(V_W), .DEPTH(TO_ROOT)) u_v (.clk_i, .d_i({x_i, y_i, z_i}), .q_o(v_q14));
+  assign shift = 5'd17 - e_q14;
   always_ff @(posedge clk_i) begin
-    shift_q14 <= shift[1:0];
-    r_q14     <= r_q13;
+    shift_q15 <= shift[1:0];
     r_q15     <= r_q14;
+    r_q16     <= r_q15;
   end
 
   // ---- the three components ------------------------------------------------------------------------------------
@@ -67,25 +67,25 @@ module shade_normalize (
   for (genvar c = 0; c < 3; c++) begin : g_component
     localparam int LSB = c * W;
     localparam int P_W = R_W + 1 + W;
-    logic signed [W:0] w_q14, w_q15;
-    logic signed [P_W-1:0] p_q17;
+    logic signed [W:0] w_q15, w_q16;
+    logic signed [P_W-1:0] p_q18;
     logic signed [P_W:0] sum;
-    logic [R_W:0] addend_q16, addend_q17;  // b r + half an ulp of n
-    logic signed [W-1:0] n_q18;
+    logic [R_W:0] addend_q17, addend_q18;  // b r + half an ulp of n
+    logic signed [W-1:0] n_q19;
 
     always_ff @(posedge clk_i) begin
-      w_q14      <= (W + 1)'($signed(v_q13[LSB+:W])) <<< {shift[4:2], 2'b00};
-      w_q15      <= w_q14 <<< shift_q14;
-      addend_q16 <= {1'b0, w_q15[0] ? r_q15 : '0} + ((R_W + 1)'(1) << shade_pkg::RSQRT_F);
-      addend_q17 <= addend_q16;
-      n_q18      <= W'(sum >>> R_W);
+      w_q15      <= (W + 1)'($signed(v_q14[LSB+:W])) <<< {shift[4:2], 2'b00};
+      w_q16      <= w_q15 <<< shift_q15;
+      addend_q17 <= {1'b0, w_q16[0] ? r_q16 : '0} + ((R_W + 1)'(1) << shade_pkg::RSQRT_F);
+      addend_q18 <= addend_q17;
+      n_q19      <= W'(sum >>> R_W);
     end
-    shade_mul #(.A_W(R_W + 1), .B_W(W)) u_product (.clk_i, .a_i({1'b0, r_q15}), .b_i(w_q15[W:1]), .p_o(p_q17));
-    assign sum          = ((P_W + 1)'(p_q17) <<< 1) + (P_W + 1)'({1'b0, addend_q17});
-    assign n[LSB+:W] = n_q18;
+    shade_mul #(.A_W(R_W + 1), .B_W(W)) u_product (.clk_i, .a_i({1'b0, r_q16}), .b_i(w_q16[W:1]), .p_o(p_q18));
+    assign sum          = ((P_W + 1)'(p_q18) <<< 1) + (P_W + 1)'({1'b0, addend_q18});
+    assign n[LSB+:W] = n_q19;
   end
   assign {x_o, y_o, z_o} = n;
 
-  shade_delay #(.WIDTH(1), .DEPTH(2 + MUL + 1)) u_zero (.clk_i, .d_i(zero_q13), .q_o(zero_o));
+  shade_delay #(.WIDTH(1), .DEPTH(2 + MUL + 1)) u_zero (.clk_i, .d_i(zero_q14), .q_o(zero_o));
   shade_valid #(.DEPTH(shade_pkg::LATENCY_NORMALIZE)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

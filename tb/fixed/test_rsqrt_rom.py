@@ -17,5 +17,6 @@ async def rows(bench: Bench) -> None:
     """All of them."""
     c0, c1, c2 = rsqrt_table().T
     half = np.where(c0 > 0, 1 << k.RSQRT_C0_F - k.RSQRT_F - 1, 0)
-    outputs = {"c0_o": c0 + half, "c1_o": c1, "c2_o": c2}
-    await bench.pipeline({"i_i": np.arange(len(c0))}, outputs, 0)
+    c1 = c1 & (1 << k.RSQRT_C1_F) - 1
+    row = ((c0 + half) << k.RSQRT_C1_F | c1) << k.RSQRT_C2_W | c2
+    await bench.pipeline({"i_i": np.arange(len(row))}, {"row_o": row}, 1)

@@ -27,7 +27,7 @@ from golden.poly import span_log2
 KAPPA_F = 20
 KAPPA_MAX = (1 << 31) - 1
 LOG2_MIN = 2  # nodes at a quarter of a segment are pixels: 4 pixels at least
-THRESHOLDS = tuple((sixty_fourths << KAPPA_F) >> 6 for sixty_fourths in (2, 24, 64))  # T1, T2, T3
+THRESHOLDS = tuple((1 << KAPPA_F) >> shift for shift in (5, 2, 0))  # T1, T2, T3 = 1/32, 1/4, 1
 
 # position of node i in quarters of a segment, by degree (node set left)
 QUARTERS = np.array([[0, 0, 0, 0], [0, 4, 0, 0], [0, 2, 4, 0], [0, 1, 2, 4]])

@@ -38,7 +38,7 @@ def cli() -> None:
 @click.option("--model", default="blinn", help=f"Light: {', '.join(MODELS)}.")
 @click.option("--shininess", default=32.0, help="Exponent n of the highlight, 1 to 1024.")
 @click.option(
-    "--light", nargs=3, type=float, default=(-0.5, 0.6, 0.8), help="Direction to the light: right, up, viewer."
+    "--light", nargs=3, type=float, default=(0.3, 0.6, 0.8), help="Direction to the light: right, up, viewer."
 )
 @click.option("--projection", default=VIEW.projection, help=f"{', '.join(PROJECTIONS)}.")
 @click.option("--yaw", default=VIEW.yaw, help="Degrees, turns the mesh to the viewer's right.")

@@ -51,7 +51,7 @@ class Settings:
     evaluator: str = "horner"
     model: str = "blinn"
     shininess: float = 32.0
-    light: tuple[float, float, float] = (-0.5, 0.6, 0.8)
+    light: tuple[float, float, float] = (0.3, 0.6, 0.8)
     degree: int = 3  # of every span in form paper
 
     def __post_init__(self) -> None:

@@ -7,7 +7,7 @@ HEAD   := build/render/head
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-one lint format bench units papers synth lock clean distclean
+.PHONY: all help setup test test-one lint format bench units papers synth pictures lock clean distclean
 
 all: $(HEAD)/report.json ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -45,6 +45,9 @@ bench: ## Measure speed: simulator, golden model, alternatives; leaves build/ben
 units: ## Measure every unit: vectors, mismatches, worst error; leaves build/units.json
 papers: ## Check every claim of the papers; leaves build/papers.json
 synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.json
+
+pictures: $(READY) ## Make the pictures of the READMEs again, in docs
+	$(BIN)/python -m scripts.pictures
 
 lock: ## Write requirements.txt from requirements.in
 	scripts/lock.sh

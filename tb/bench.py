@@ -114,7 +114,7 @@ class Bench:
         raise Mismatch(f"{what}: not within {clocks} clocks (clock {self.clock})")
 
     def equal(self, actual: int, expected: int, what: str, bits: int = 0) -> None:
-        """Count a comparison; raise Mismatch unless equal. It shows patterns of so many ``bits`` in hex, else numbers."""
+        """Count a comparison; raise Mismatch unless equal. Patterns of so many ``bits`` are shown in hex."""
         self.checks += 1
         if actual != expected:
             shown, wanted = (f"0x{n & (1 << bits) - 1:0{-(-bits // 4)}x}" if bits else n for n in (actual, expected))

@@ -51,11 +51,10 @@ class Spans:
 
     def texts(self) -> list[str]:
         """Every span in words, for messages: number, degree, pixels, nodes of either channel in hex."""
-        nodes = self.nodes.reshape(len(self.nodes), -1) & (1 << k.INTENSITY_W) - 1
-        return [
-            f"span {span} (degree {self.degree[span]}, {self.count[span]} pixels, nodes {' '.join(f'{node:05x}' for node in row)})"
-            for span, row in enumerate(nodes)
-        ]
+        mask = (1 << k.INTENSITY_W) - 1
+        nodes = [" ".join(f"{node & mask:05x}" for node in span.ravel().tolist()) for span in self.nodes]
+        shape = zip(self.degree, self.count, nodes, strict=True)
+        return [f"span {i} (degree {d}, {n} pixels, nodes {text})" for i, (d, n, text) in enumerate(shape)]
 
     def errors(self, bench: Bench) -> np.ndarray:
         """The error bits of every span (S,)."""

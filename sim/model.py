@@ -225,13 +225,17 @@ class Model:
 
         ``inputs``: an array (rows,) or a number for every data input, by name; of ports of more than 64 bits (rows,
         words) or (words,) of 32 bits. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one
-        without a consumer. ``latency``: of a module without ``valid_o``. The run ends ``drain`` clocks after the last
-        transfer. Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing
-        is taken or given for ``patience`` clocks.
+        without a consumer, where the module has a valid input, a ready input. ``latency``: of a module without
+        ``valid_o``. The run ends ``drain`` clocks after the last transfer.
+
+        Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing is taken
+        or given for ``patience`` clocks.
         """
-        for option, chance in (("in_gap", in_gap), ("out_stall", out_stall)):
-            if not 0 <= chance <= 1:
-                raise UserError(f"{option}: {chance} is out of range, allowed is 0 to 1")
+        face = self.interface
+        for option, chance, waits in (("in_gap", in_gap, face.into.valid), ("out_stall", out_stall, face.out.ready)):
+            if not 0 <= chance <= (1 if waits else 0):
+                limit = "0 to 1" if waits else f"0, {self.module} cannot wait there"
+                raise UserError(f"{option}: {chance} is out of range, allowed is {limit}")
         rows, arrays = self._inputs(inputs)
         pointers = (ctypes.c_void_p * max(1, len(arrays)))(*(array.ctypes.data for array in arrays))
         waves = BUILD / "waves" / f"{self.module}.vcd"

@@ -1,0 +1,1 @@
+"""Tests of ``sim``: modules as NumPy-callable objects, and frames."""

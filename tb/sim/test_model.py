@@ -1,0 +1,562 @@
+"""``sim.load``: what it accepts, what it measures, what it tells when something is wrong, and what it compiles."""
+
+from __future__ import annotations
+
+import copy
+import doctest
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sim
+from golden import contract as k
+from golden import fixed, poly
+from scripts.sources import ROOT
+from sim import SimulationError, model, verilate
+from sim.errors import UserError
+from sim.verilate import Port
+from tb.runner import SEED
+
+RNG = np.random.default_rng(SEED)
+
+# takes `TAKES` values and then no more; gives each back at once
+STUCK = """
+module shade_stuck #(parameter int TAKES = 3) (
+  input logic clk_i, input logic rst_i, input logic valid_i, output logic ready_o, input logic [7:0] x_i,
+  output logic valid_o, output logic [7:0] y_o
+);
+  logic [7:0] taken_q;
+  assign ready_o = taken_q < 8'(TAKES);
+  assign valid_o = valid_i && ready_o;
+  assign y_o = x_i;
+  always_ff @(posedge clk_i) begin
+    if (valid_o) taken_q <= taken_q + 8'd1;
+    if (rst_i) taken_q <= '0;
+  end
+endmodule
+"""
+# ports of every kind, through a register that is not reset
+ECHO = """
+module shade_echo #(parameter int WIDE = 70) (
+  input logic clk_i, input logic rst_i, input logic valid_i, output logic valid_o,
+  input logic [WIDE-1:0] wide_i, input logic one_i, input logic signed [4:0] small_i,
+  input logic [63:0] word_i, input logic signed [63:0] long_i,
+  output logic [WIDE-1:0] wide_o, output logic one_o, output logic signed [4:0] small_o,
+  output logic [63:0] word_o, output logic signed [63:0] long_o
+);
+  always_ff @(posedge clk_i) begin
+    {wide_o, one_o, small_o, word_o, long_o} <= {wide_i, one_i, small_i, word_i, long_i};
+    valid_o <= valid_i && !rst_i;
+  end
+endmodule
+"""
+# without a clock
+ADDER = """
+module shade_adder (input logic signed [7:0] a_i, input logic [7:0] b_i, output logic signed [9:0] sum_o);
+  assign sum_o = 10'(a_i) + $signed({2'b0, b_i});
+endmodule
+"""
+# a register that nothing ever writes
+DREAM = """
+module shade_dream (input logic clk_i, input logic x_i, output logic [31:0] y_o);
+  logic [31:0] dream_q;
+  always_ff @(posedge clk_i) if (x_i) dream_q <= dream_q + 32'd1;
+  assign y_o = dream_q;
+endmodule
+"""
+# gives every value twice and counts, in a status output, what it took
+TWICE = """
+module shade_twice (
+  input logic clk_i, input logic rst_i,
+  input logic s_axis_in_tvalid, output logic s_axis_in_tready, input logic [15:0] s_axis_in_tdata,
+  output logic m_axis_out_tvalid, input logic m_axis_out_tready, output logic [15:0] m_axis_out_tdata,
+  output logic m_axis_out_tlast, output logic [7:0] taken_o
+);
+  logic [15:0] data_q;
+  logic full_q, second_q;
+  assign s_axis_in_tready = !full_q;
+  assign {m_axis_out_tvalid, m_axis_out_tdata, m_axis_out_tlast} = {full_q, data_q, second_q};
+  always_ff @(posedge clk_i) begin
+    if (s_axis_in_tvalid && s_axis_in_tready) begin
+      {full_q, second_q, data_q} <= {2'b10, s_axis_in_tdata};
+      taken_o <= taken_o + 8'd1;
+    end else if (m_axis_out_tvalid && m_axis_out_tready) {full_q, second_q} <= {!second_q, 1'b1};
+    if (rst_i) {full_q, second_q, taken_o} <= '0;
+  end
+endmodule
+"""
+
+
+@pytest.fixture
+def third() -> sim.Model:
+    return sim.load("shade_third", WIDTH=18)
+
+
+@pytest.fixture
+def span() -> sim.Model:
+    return sim.load("shade_poly_span", EVALUATOR=k.EVALUATOR_HORNER, FORM=k.FORM_REFINED)
+
+
+def spans(count: int = 200) -> tuple[np.ndarray, np.ndarray]:
+    """Beats of random spans, and the pixels that they make."""
+    nodes = RNG.integers(0, 1 << k.INTENSITY_F, (count, k.CHANNELS, k.NODE_COUNT))
+    degree, pixels = RNG.integers(1, 4, count), RNG.integers(1, 20, count)
+    golden, _ = poly.poly_span(nodes, degree, pixels)
+    return poly.pack_spans(nodes, degree, pixels), golden[:, 0] | golden[:, 1] << k.PIXEL_W
+
+
+def test_doctest() -> None:
+    """The example of the module's docstring is true."""
+    result = doctest.testmod(model, extraglobs={"sim": sim, "np": np})
+    assert result.attempted
+    assert not result.failed
+
+
+# ---- values ------------------------------------------------------------------------------------------------------
+
+
+def test_kinds_of_ports(toy: Callable) -> None:
+    """One bit, negative numbers, 64 bits, more than 64 bits: each value comes back as it went in."""
+    toy("shade_echo", ECHO)
+    echo = sim.load("shade_echo", WIDE=70)
+    given = {
+        "wide_i": np.array([[0, 0, 0], [2**32 - 1, 2**32 - 1, 63], [1, 2, 3]], np.uint32),
+        "one_i": np.array([0, 1, 1]),
+        "small_i": np.array([-16, 15, -1]),
+        "word_i": np.array([0, 2**64 - 1, 1 << 63], np.uint64),
+        "long_i": np.array([-(1 << 63), (1 << 63) - 1, -1]),
+    }
+    run = echo.run(**given)
+    for name, value in given.items():
+        actual = run.outputs[name.replace("_i", "_o")]
+        assert actual.shape == value.shape
+        assert np.array_equal(actual.astype(value.dtype), value), name
+    assert run.small_o.tolist() == [-16, 15, -1]
+    assert run.long_o.min() == -(1 << 63)
+    assert run.given.tolist() == [1, 2, 3]
+
+
+def test_lists_numbers_and_booleans(toy: Callable) -> None:
+    """Whatever NumPy takes for integers; a single value goes with every row."""
+    toy("shade_echo", ECHO)
+    echo = sim.load("shade_echo", WIDE=96)
+    run = echo.run(wide_i=[7, 8, 9], one_i=[True, False], small_i=-3, word_i=np.uint8([4]), long_i=(5, 6))
+    assert run.wide_o.tolist() == [[7, 8, 9]] * 2
+    assert run.one_o.tolist() == [1, 0]
+    assert run.small_o.tolist() == [-3, -3]
+    assert run.word_o.tolist() == [4, 4]
+    assert run.long_o.tolist() == [5, 6]
+
+
+def test_strided_arrays(third: sim.Model) -> None:
+    """Slices and reversed arrays are read by value, and inputs are left alone."""
+    x = RNG.integers(-(1 << 17), 1 << 17, 300)
+    kept = x.copy()
+    for view in (x[::3], x[::-1], np.stack([x, x], axis=1)[:, 1], x.astype(np.int32), x.astype(">i4")):
+        assert np.array_equal(third.run(x_i=view).y_o, fixed.third(view))
+    assert np.array_equal(x, kept)
+
+
+def test_no_rows(third: sim.Model, span: sim.Model) -> None:
+    """Nothing in, nothing out, no clock."""
+    run = third.run(x_i=np.zeros(0, np.int64))
+    assert (run.y_o.shape, run.taken.shape, run.given.shape, run.clocks) == ((0,), (0,), (0,), 0)
+    run = span.run(s_axis_span_tdata=np.zeros((0, 6), np.uint32))
+    assert (run.m_axis_pixel_tdata.shape, run.clocks) == ((0,), 0)
+    assert run.status == {"error_o": 0, "error_count_o": 0}
+
+
+def test_without_a_clock(toy: Callable) -> None:
+    """A combinational module answers every row at once."""
+    toy("shade_adder", ADDER)
+    run = sim.load("shade_adder").run(a_i=[-128, 127, -1], b_i=[0, 255, 1])
+    assert run.sum_o.tolist() == [-128, 382, 0]
+    assert run.taken.tolist() == run.given.tolist() == [0, 1, 2]
+    assert run.clocks == run.simulated == 3
+
+
+def test_without_valid() -> None:
+    """A module that tells nothing gives each row `latency` clocks later."""
+    run = sim.load("shade_delay", WIDTH=9, DEPTH=3).run(d_i=np.arange(500), latency=3)
+    assert np.array_equal(run.q_o, np.arange(500))
+    assert set(run.given - run.taken) == {3}
+
+
+def test_registers_without_reset_are_random(toy: Callable) -> None:
+    """They hold what the seed says: not 0, not the same for another seed."""
+    toy("shade_dream", DREAM)
+    dream = sim.load("shade_dream")
+    values = [int(dream.run(x_i=0, seed=seed).y_o[0]) for seed in (1, 1, 2, 3)]
+    assert values[0] == values[1]
+    assert len(set(values)) == 3
+    assert 0 not in values
+
+
+def test_more_outputs_than_inputs(toy: Callable) -> None:
+    """Streams need not keep step: what comes out is counted on its own, status outputs are read at the end."""
+    toy("shade_twice", TWICE)
+    twice = sim.load("shade_twice")
+    for in_gap, out_stall in ((0, 0), (0.5, 0.5)):
+        run = twice.run(s_axis_in_tdata=np.arange(100), in_gap=in_gap, out_stall=out_stall)
+        assert np.array_equal(run.m_axis_out_tdata, np.repeat(np.arange(100), 2))
+        assert np.array_equal(run.m_axis_out_tlast, np.tile([0, 1], 100))
+        assert (len(run.taken), len(run.given)) == (100, 200)
+        assert run.status == {"taken_o": 100}
+
+
+# ---- clocks ------------------------------------------------------------------------------------------------------
+
+
+def test_clocks(third: sim.Model, span: sim.Model) -> None:
+    """They are those of the simulated clock: rows and latency of a pipeline, 6 a value of the sequential unit."""
+    run = third.run(x_i=np.arange(1000))
+    assert np.array_equal(run.taken, np.arange(1000))
+    assert np.array_equal(run.given, np.arange(1000) + k.LATENCY_THIRD)
+    assert run.clocks == 1000 + k.LATENCY_THIRD
+    assert run.simulated >= run.clocks
+
+    run = sim.load("shade_horner_seq").run(a_i=1, b_i=2, c_i=3, d_i=4, t_i=np.arange(50))
+    assert set(np.diff(run.taken)) == set(run.given - run.taken) == {k.LATENCY_HORNER_SEQ}
+
+    beats, pixels = spans()
+    run = span.run(s_axis_span_tdata=beats)
+    assert run.given[0] - run.taken[0] == k.LATENCY_POLY_SPAN_HORNER
+    assert np.array_equal(run.given, run.given[0] + np.arange(len(pixels)))
+    assert run.clocks == run.given[-1] + 1
+
+
+@pytest.mark.parametrize(("in_gap", "out_stall"), [(0.5, 0), (0, 0.5), (0.5, 0.5), (0.95, 0), (0, 0.99)])
+def test_gaps_and_stalls(span: sim.Model, in_gap: float, out_stall: float) -> None:
+    """They change when, never what; and a seed repeats them."""
+    beats, pixels = spans()
+    options = {"in_gap": in_gap, "out_stall": out_stall}
+    run = span.run(s_axis_span_tdata=beats, seed=SEED, **options)
+    assert np.array_equal(run.m_axis_pixel_tdata, pixels)
+    assert (np.diff(run.given) > 0).all()
+    if out_stall:
+        assert run.clocks == pytest.approx(len(pixels) / (1 - out_stall), rel=0.1)
+    again, other = (span.run(s_axis_span_tdata=beats, seed=seed, **options) for seed in (SEED, SEED + 1))
+    assert np.array_equal(run.given, again.given)
+    assert not np.array_equal(run.given, other.given)
+
+
+@pytest.mark.parametrize("in_gap", [0, 0.25, 0.5, 0.95])
+def test_gaps_of_a_pipeline(third: sim.Model, in_gap: float) -> None:
+    """As often as asked for; each value has the same latency."""
+    x = np.arange(4000)
+    run = third.run(x_i=x, in_gap=in_gap, seed=SEED)
+    assert np.array_equal(run.y_o, fixed.third(x))
+    assert set(run.given - run.taken) == {k.LATENCY_THIRD}
+    assert len(x) / (run.taken[-1] + 1) == pytest.approx(1 - in_gap, rel=0.15)
+
+
+# ---- what is refused ---------------------------------------------------------------------------------------------
+
+
+def refused(call: Callable[[], object], told: str) -> None:
+    with pytest.raises(UserError) as error:
+        call()
+    assert told in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        (1 << 17, "131072 .. 131072 given, allowed -131072 .. 131071"),
+        (-(1 << 17) - 1, "-131073 .. -131073 given"),
+        ([0, 1 << 40], "0 .. 1099511627776 given"),
+        (np.uint64(2**64 - 1), "18446744073709551615 given"),
+        (1 << 70, "object given, allowed integers"),
+        (1.0, "float64 given, allowed integers"),
+        ([float("nan")], "float64 given"),
+        ([], "float64 given"),
+        ("1", "<U1 given"),
+        (None, "object given"),
+        ([[1], [2]], "array of shape (2, 1) given, allowed (rows) or a number"),
+    ],
+)
+def test_values_out_of_range(third: sim.Model, value: object, told: str) -> None:
+    refused(lambda: third.run(x_i=value), f"shade_third.x_i: {told}" if told[0] not in "-1" else told)
+
+
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        (0, "array of shape () given, allowed (rows, 6) or (6,)"),
+        (np.zeros(5, int), "shape (5,)"),
+        (np.zeros((3, 1), int), "shape (3, 1)"),
+        (np.zeros((3, 7), int), "shape (3, 7)"),
+        (np.zeros((2, 3, 6), int), "shape (2, 3, 6)"),
+        (np.full(6, -1), "-1 .. -1 given, allowed 0 .. 4294967295"),
+        (np.full(6, 1 << 32), "allowed 0 .. 4294967295"),
+        (np.zeros(6), "float64 given"),
+    ],
+)
+def test_rows_of_wide_ports(span: sim.Model, value: np.ndarray, told: str) -> None:
+    refused(lambda: span.run(s_axis_span_tdata=value), told)
+
+
+def test_last_word_of_wide_ports(toy: Callable) -> None:
+    """Bits above the port's width are no part of a value."""
+    toy("shade_echo", ECHO)
+    rest = {"one_i": 0, "small_i": 0, "word_i": 0, "long_i": 0}
+    for wide, bits in ((70, 6), (96, 32)):
+        echo = sim.load("shade_echo", WIDE=wide)
+        most = [2**32 - 1, 2**32 - 1, (1 << bits) - 1]
+        assert echo.run(wide_i=most, **rest).wide_o.tolist() == [most]
+    echo = sim.load("shade_echo", WIDE=70)
+    refused(
+        lambda: echo.run(wide_i=[0, 0, 64], **rest), "shade_echo.wide_i: the last word of a row has more than 6 bits"
+    )
+
+
+def test_names_and_lengths(third: sim.Model) -> None:
+    refused(lambda: third.run(), "shade_third: inputs  given, needed x_i".replace("  ", " "))
+    refused(lambda: third.run(y_i=1), "shade_third: inputs y_i given, needed x_i")
+    refused(lambda: third.run(x_i=1, valid_i=1), "inputs valid_i, x_i given, needed x_i")
+    refused(lambda: third.run(x_i=1, clk_i=1), "needed x_i")
+    coef = sim.load("shade_coef_b")
+    rest = {"degree_i": 3, "i1_i": 0, "i2_i": [1]}
+    refused(
+        lambda: coef.run(**rest, i3_i=[1, 2], i4_i=[1, 2, 3]), "rows differ, degree_i 1, i1_i 1, i2_i 1, i3_i 2, i4_i 3"
+    )
+    refused(lambda: coef.run(**rest, i3_i=[1, 2], i4_i=np.zeros(0, int)), "rows differ")
+
+
+@pytest.mark.parametrize("chance", [-0.1, 1.01, float("nan"), float("inf")])
+@pytest.mark.parametrize("option", ["in_gap", "out_stall"])
+def test_probabilities(third: sim.Model, option: str, chance: float) -> None:
+    refused(lambda: third.run(x_i=1, **{option: chance}), f"{option}: {chance} is out of range, allowed is 0")
+
+
+def test_who_cannot_wait(third: sim.Model, toy: Callable) -> None:
+    """Without a ready input the module would lose what nobody takes, without a valid input take what is none."""
+    refused(
+        lambda: third.run(x_i=1, out_stall=0.5), "out_stall: 0.5 is out of range, allowed is 0, shade_third cannot wait"
+    )
+    delay = sim.load("shade_delay", WIDTH=9, DEPTH=3)
+    refused(lambda: delay.run(d_i=1, latency=3, in_gap=0.5), "in_gap: 0.5 is out of range, allowed is 0, shade_delay")
+
+
+@pytest.mark.parametrize(
+    ("module", "parameters", "told"),
+    [
+        ("shade_nosuch", {}, "shade_nosuch: no such module, allowed shade_delay, "),
+        ("", {}, "no such module"),
+        ("shade_pkg", {}, "no such module"),
+        ("../rtl/fixed/shade_third", {}, "no such module"),
+        ("shade_third", {"NOSUCH": 1}, "shade_third[NOSUCH=1]: "),
+        ("shade_third", {"NOSUCH": 1}, "NOSUCH"),
+        ("shade_third", {"WIDTH": 1}, "shade_third[WIDTH=1]: WIDTH must be in 4 .. 28"),  # its parts complain as well
+        ("shade_third", {"WIDTH": 29}, "shade_third[WIDTH=29]: WIDTH must be in 4 .. 28"),
+        ("shade_third", {"WIDTH": -8}, "WIDTH must be in 4 .. 28"),
+        ("shade_third", {"WIDTH": 1 << 40}, "WIDTH must be in 4 .. 28"),
+        ("shade_third", {"WIDTH": 8.0}, "shade_third: WIDTH=8.0, allowed integers"),
+        ("shade_third", {"WIDTH": "8 --help"}, "WIDTH='8 --help', allowed integers"),
+        ("shade_third", {"WIDTH": None}, "WIDTH=None, allowed integers"),
+        ("shade_poly_span", {"EVALUATOR": 7}, "shade_poly_span[EVALUATOR=7]: EVALUATOR must be"),
+        ("shade_mul", {"A_W": 99, "STAGES": 0}, "shade_mul[A_W=99,STAGES=0]: A_W must be in 2 .. 35"),
+    ],
+)
+def test_modules_and_parameters(module: str, parameters: dict, told: str) -> None:
+    """In one line, in the words of the module's own check."""
+    refused(lambda: sim.load(module, **parameters), told)
+
+
+def test_parameters_of_any_integer_type(span: sim.Model) -> None:
+    """The same numbers are the same model, in any order."""
+    assert sim.load("shade_poly_span", FORM=np.uint8(k.FORM_REFINED), EVALUATOR=k.EVALUATOR_HORNER) is span
+    assert sim.load("shade_poly_span", EVALUATOR=bool(k.EVALUATOR_HORNER), FORM=np.int64(k.FORM_REFINED)) is span
+
+
+def test_unknown_outputs(third: sim.Model) -> None:
+    run = third.run(x_i=1)
+    with pytest.raises(AttributeError, match="no output z_o, there are y_o"):
+        _ = run.z_o
+    assert not hasattr(run, "x_i")
+
+
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, lambda run: pickle.loads(pickle.dumps(run))])
+def test_results_can_be_copied(third: sim.Model, duplicate: Callable) -> None:
+    run = third.run(x_i=[3, 6])
+    assert duplicate(run).y_o.tolist() == [1, 2]
+    assert duplicate(run).clocks == run.clocks
+
+
+# ---- modules that stop -------------------------------------------------------------------------------------------
+
+
+def test_a_consumer_that_never_takes(span: sim.Model) -> None:
+    """The run ends, though the module offers a pixel all the time."""
+    beats, _ = spans()
+    told = r"shade_poly_span\(EVALUATOR=0, FORM=1\) stopped: \d+ of 200 inputs taken, 0 outputs given, nothing for 500"
+    with pytest.raises(SimulationError, match=told):
+        span.run(s_axis_span_tdata=beats, out_stall=1, patience=500)
+
+
+def test_a_producer_that_never_offers(third: sim.Model) -> None:
+    with pytest.raises(SimulationError, match="0 of 7 inputs taken, 0 outputs given, nothing for 500 clocks"):
+        third.run(x_i=np.arange(7), in_gap=1, patience=500)
+
+
+def test_a_module_that_stops_taking(toy: Callable) -> None:
+    toy("shade_stuck", STUCK)
+    stuck = sim.load("shade_stuck", TAKES=3)
+    assert stuck.run(x_i=[1, 2, 3]).y_o.tolist() == [1, 2, 3]
+    with pytest.raises(SimulationError, match="3 of 4 inputs taken, 3 outputs given, nothing for 1000 clocks"):
+        stuck.run(x_i=[1, 2, 3, 4], patience=1000)
+    assert stuck.run(x_i=[1, 2, 3]).y_o.tolist() == [1, 2, 3]  # every run starts from reset
+
+
+def test_a_rare_consumer_loses_nothing(span: sim.Model) -> None:
+    """Waits much longer than the run drains are no end of the run."""
+    beats, pixels = spans(5)
+    run = span.run(s_axis_span_tdata=beats, out_stall=0.995, drain=30)
+    assert np.array_equal(run.m_axis_pixel_tdata, pixels)
+
+
+# ---- the ports ---------------------------------------------------------------------------------------------------
+
+
+def test_ports(span: sim.Model) -> None:
+    """Names, directions, widths and signs are those of the header."""
+    ports = {port.name: port for port in sim.load("shade_coef_b").ports}
+    assert ports["clk_i"] == Port("clk_i", "input", 1, False)
+    assert ports["i4_i"] == Port("i4_i", "input", k.INTENSITY_W, True)
+    assert ports["b_o"] == Port("b_o", "output", k.COEF_W, True)
+    widths = {port.name: port.width for port in span.ports}
+    assert widths["s_axis_span_tdata"] == k.SPAN_DATA_W
+    assert widths["m_axis_pixel_tdata"] == k.PIXEL_DATA_W
+
+
+def test_interface() -> None:
+    """Roles are told by names; streams come before plain handshakes."""
+
+    def ports(inputs: str, outputs: str) -> list[Port]:
+        return [
+            Port(n, way, 1, False) for way, names in (("input", inputs), ("output", outputs)) for n in names.split()
+        ]
+
+    plain = model.interface(ports("clk_i rst_i valid_i a_i ready_i b_i", "valid_o ready_o y_o"))
+    assert plain.clock and plain.reset
+    assert [p.name for p in plain.into.data] == ["a_i", "b_i"]
+    assert (plain.into.valid, plain.into.ready) == ("valid_i", "ready_o")
+    assert [p.name for p in plain.out.data] == ["y_o"]
+    assert (plain.out.valid, plain.out.ready) == ("valid_o", "ready_i")
+    assert plain.status == []
+
+    bare = model.interface(ports("x_i", "y_o"))
+    assert not bare.clock and not bare.reset
+    assert bare.into.valid is bare.into.ready is bare.out.valid is bare.out.ready is None
+
+    inputs = "clk_i rst_i s_axis_q_tvalid s_axis_q_tdata m_axis_p_tready"
+    outputs = "s_axis_q_tready m_axis_p_tvalid m_axis_p_tdata m_axis_p_tlast error_o"
+    stream = model.interface(ports(inputs, outputs))
+    assert (stream.into.valid, stream.into.ready) == ("s_axis_q_tvalid", "s_axis_q_tready")
+    assert [p.name for p in stream.into.data] == ["s_axis_q_tdata"]
+    assert [p.name for p in stream.out.data] == ["m_axis_p_tdata", "m_axis_p_tlast"]
+    assert [p.name for p in stream.status] == ["error_o"]
+
+
+# ---- compiling ---------------------------------------------------------------------------------------------------
+
+
+def test_compiled_once(fresh: Path, toy: Callable, compiled: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A model is compiled for a module, its sources and its parameters; never again for the same."""
+    source = toy("shade_adder", ADDER)
+    other = toy("shade_dream", DREAM)
+
+    def load() -> list[str]:
+        """The programs that loading runs in a new process."""
+        monkeypatch.setattr(model, "_loaded", {})
+        compiled.clear()
+        assert sim.load("shade_adder").run(a_i=1, b_i=2).sum_o.tolist() == [3]
+        return compiled[:]
+
+    assert load() == ["verilator", "verilator", "g++"]
+    assert load() == []
+    assert sim.load("shade_adder") is sim.load("shade_adder")
+    other.write_text(other.read_text() + "\n")
+    assert load() == []  # it has no part in the module
+    source.write_text("// another comment\n" + source.read_text())
+    assert load() == ["verilator", "verilator", "g++"]
+    kept = [path.name for path in fresh.iterdir() if path.is_dir()]
+    assert len(kept) == 2
+    assert all(name.startswith("shade_adder-") for name in kept)
+
+
+def test_what_fails_to_compile_leaves_nothing(fresh: Path, toy: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A module that does not elaborate, or C++ that does not compile: the cause is told and no folder stays."""
+    refused(lambda: sim.load("shade_third", WIDTH=1), "WIDTH must be")
+    toy("shade_wrong", "module shade_wrong (input logic x_i, output logic y_o);\n  assign y_o = z_i;\nendmodule\n")
+    refused(lambda: sim.load("shade_wrong"), "shade_wrong.sv:2:")
+    toy("shade_adder", ADDER)
+    monkeypatch.setattr(model, "_glue", lambda ports: "#error no glue\n")
+    with pytest.raises(RuntimeError, match="no glue"):
+        sim.load("shade_adder")
+    assert [path for path in fresh.iterdir() if path.is_dir()] == []
+    monkeypatch.undo()
+
+
+TWO = """
+import sys
+from pathlib import Path
+from sim import model, verilate
+
+runs, run = [], verilate._run
+runtime = verilate._runtime(False)
+verilate._runtime = lambda waves: runtime
+verilate.CACHE = Path(sys.argv[1])
+verilate._run = lambda *given: runs.append(given) or run(*given)
+third = model.load("shade_third", WIDTH=5)
+print(len(runs), third.run(x_i=range(-16, 16)).y_o.tolist())
+"""
+
+
+def test_two_processes_at_once(tmp_path: Path) -> None:
+    """One compiles, the other waits and takes what is there."""
+    sim.load("shade_third", WIDTH=18)  # Verilator's own part is compiled
+    command = [sys.executable, "-c", TWO, str(tmp_path)]
+    both = [subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    told = sorted(process.communicate(timeout=120)[0].strip() for process in both)
+    values = fixed.third(np.arange(-16, 16)).tolist()
+    assert told == [f"{count} {values}" for count in (0, 3)]
+    assert len([path for path in tmp_path.iterdir() if path.is_dir()]) == 1
+
+
+def test_waves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run with waves leaves a waveform with the module's signals, two steps a clock."""
+    monkeypatch.setattr(model, "BUILD", tmp_path)
+    traced = sim.load("shade_third", waves=True, WIDTH=18)
+    run = traced.run(x_i=[-3, 300])
+    assert run.y_o.tolist() == [-1, 100]
+    text = (tmp_path / "waves" / "shade_third.vcd").read_text()
+    names = {line.split()[4] for line in text.splitlines() if line.strip().startswith("$var")}
+    assert {"clk_i", "valid_i", "x_i", "y_o", "sum_q1"} <= names
+    steps = [line for line in text.splitlines() if line.startswith("#")]
+    assert len(steps) >= 2 * run.clocks
+    assert f"b{300:018b} " in text
+    assert sim.load("shade_third", waves=False, WIDTH=18) is not traced
+
+
+@pytest.mark.parametrize(("value", "expected"), [(None, False), ("", False), ("0", False), ("1", True)])
+def test_waves_of_the_environment(value: str | None, expected: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("WAVES", raising=False)
+    if value is not None:
+        monkeypatch.setenv("WAVES", value)
+    assert sim.load("shade_third", WIDTH=18).waves is expected
+
+
+def test_reached() -> None:
+    """A model is made of the package, the module, and what it instantiates; in the order of the file list."""
+    names = [path.stem for path in verilate.reached("shade_horner_step")]
+    assert names[0] == "shade_pkg"
+    assert names[-1] == "shade_horner_step"
+    assert "shade_mul" in names  # its only multiplier
+    assert not {"shade_horner_pipe", "shade_poly_span"} & set(names)

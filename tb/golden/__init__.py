@@ -1,0 +1,1 @@
+"""Tests of ``golden``: hand-computed numbers, and exact fractions."""

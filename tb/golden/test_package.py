@@ -1,0 +1,143 @@
+"""The package as a whole: it stands alone, its examples are true, the RTL's constants are its own."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import pkgutil
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import golden
+from golden import contract as k
+from scripts import generate
+from scripts.sources import ROOT
+
+MODULES = ["golden", *(module.name for module in pkgutil.walk_packages(golden.__path__, "golden."))]
+
+
+@pytest.fixture(params=MODULES)
+def module(request: pytest.FixtureRequest) -> ModuleType:
+    return importlib.import_module(request.param)
+
+
+def test_doctests(module: ModuleType) -> None:
+    assert not doctest.testmod(module).failed
+
+
+def test_there_are_doctests() -> None:
+    """In every public function of the integer models."""
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    for name in ("golden.fixed", "golden.poly"):
+        shown = {test.name for test in finder.find(importlib.import_module(name)) if test.examples}
+        assert len(shown) >= 4, name
+
+
+def test_docstrings(module: ModuleType) -> None:
+    """Everything public is explained."""
+    assert module.__doc__
+    for name, value in vars(module).items():
+        if not name.startswith("_") and getattr(value, "__module__", None) == module.__name__ and callable(value):
+            assert value.__doc__, f"{module.__name__}.{name}"
+
+
+ALONE = """
+import sys
+before = set(sys.modules)
+for name in sys.argv[2:]:
+    __import__(name)
+golden = sys.modules["golden"]
+assert golden.__file__.startswith(sys.argv[1]), golden.__file__
+roots = {name.partition(".")[0] for name in set(sys.modules) - before} - set(sys.stdlib_module_names)
+print(*sorted(root for root in roots if not root.startswith("_")))
+from golden import poly
+print(poly.poly_span([[[0, 32768, 0, 0]] * 2], [1], [3])[0].tolist())
+"""
+
+
+def test_importable_alone(tmp_path: Path) -> None:
+    """A copy of the folder, anywhere, needs NumPy and nothing else."""
+    shutil.copytree(ROOT / "golden", tmp_path / "golden", ignore=shutil.ignore_patterns("__pycache__"))
+    done = subprocess.run(
+        [sys.executable, "-c", ALONE, str(tmp_path), *MODULES], cwd=tmp_path, env={"PYTHONDONTWRITEBYTECODE": "1"},
+        capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines() == ["golden numpy", "[[0, 0], [16384, 16384], [32768, 32768]]"]
+
+
+def test_examples_of_the_readme() -> None:
+    """They run, and where a result stands beside one it is true."""
+    (block,) = re.findall(r"```python\n(.*?)```", (ROOT / "golden" / "README.md").read_text(), re.DOTALL)
+    names: dict[str, object] = {}
+    exec(block, names)
+    span = next(line for line in block.splitlines() if "poly_span" in line)
+    assert "0, 1/4, 1/2 in both channels" in span
+    assert (eval(span, names) / (1 << k.PIXEL_W)).tolist() == [[0, 0], [0.25, 0.25], [0.5, 0.5]]
+
+
+# ---- the contract ------------------------------------------------------------------------------------------------
+
+
+def test_the_package_of_the_rtl_is_up_to_date() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "scripts.generate", "--check"], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_what_is_not_up_to_date(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Any generated file that is missing or differs is named."""
+
+    def run(*arguments: str) -> int:
+        monkeypatch.setattr(sys, "argv", ["generate", *arguments])
+        return generate.main()
+
+    monkeypatch.setattr(generate, "ROOT", tmp_path)
+    files = [tmp_path / name for name in generate.GENERATED]
+    for path in files:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    assert run("--check") == 1
+    assert run() == run("--check") == 0
+    for path in files:
+        capsys.readouterr()
+        text = path.read_text()
+        path.write_text(text.replace("1", "2", 1))
+        assert run("--check") == 1
+        assert str(path.relative_to(tmp_path)) in capsys.readouterr().err
+        assert run() == 0
+        assert path.read_text() == text
+
+
+def test_every_constant_reaches_the_rtl() -> None:
+    text = generate.package()
+    written = {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", text)}
+    assert written == k.constants()
+
+
+def test_formats_fit() -> None:
+    """Widths follow from the bounds that the formulas have (mathematics, 1.1 to 1.4)."""
+    largest = 1 << k.INTENSITY_W - 1
+    assert 76 * largest < 1 << k.COEF_W - 1
+    assert (48 + 76 + 30 + 1) * largest < 1 << k.VALUE_W - 1
+    assert k.PIXELS_MAX == 1 << k.LOG2_MAX
+    assert k.PIXELS_MAX.bit_length() <= k.COUNT_W
+    assert k.DIRECT_MAX == k.NODE_COUNT
+
+
+def test_fields_of_a_span_do_not_overlap() -> None:
+    nodes = [(k.INTENSITY_W * node, k.INTENSITY_W) for node in range(k.CHANNELS * k.NODE_COUNT)]
+    rest = [(k.SPAN_COUNT_LSB, k.COUNT_W), (k.SPAN_DEGREE_LSB, k.DEGREE_W), (k.SPAN_TAG_LSB, k.TAG_W)]
+    bits = [lsb + bit for lsb, width in nodes + rest for bit in range(width)]
+    assert len(bits) == len(set(bits))
+    assert max(bits) < k.SPAN_DATA_W
+    assert k.SPAN_DATA_W % 32 == 0
+    assert k.PIXEL_DATA_W == 2 * k.PIXEL_W

@@ -17,6 +17,7 @@ from golden import contract as k
 from golden.contract import FORM_PAPER, FORM_REFINED
 
 Int = NDArray[np.int64]
+ONE = 1 << k.INTENSITY_F  # 1.0 in S1.16
 
 
 def integers(*values: ArrayLike) -> tuple[Int, ...]:
@@ -71,6 +72,41 @@ def third(x: ArrayLike, form: int = FORM_REFINED) -> Int:
     if form == FORM_PAPER:
         return round(64 * x - 16 * x - 4 * x - x, 7)
     return (2 * x + 3) // 6
+
+
+def clamp(x: ArrayLike, f: int = k.INTENSITY_F) -> tuple[Int, Int]:
+    """(min(max(x, 0), 1), 1 where that changed x), x with f fraction bits (``shade_clamp``).
+
+    >>> [[int(v) for v in clamp(x)] for x in (-1, 65536, 65537)]
+    [[0, 1], [65536, 0], [65536, 1]]
+    """
+    (x,) = integers(x)
+    y = np.clip(x, 0, 1 << f)
+    return y, (y != x).astype(np.int64)
+
+
+def square(x: ArrayLike) -> Int:
+    """x^2, exact (``shade_square``).
+
+    >>> int(square(-3))
+    9
+    """
+    (x,) = integers(x)
+    return x * x
+
+
+def weigh(
+    k0: int, kx: int, x: ArrayLike, ky: int = 0, y: ArrayLike = 0, kz: int = 0, z: ArrayLike = 0, *, f: int, out_f: int
+) -> Int:
+    """K0 + KX x + KY y + KZ z, constants of 16 fraction bits, rounded once to nearest, ties up (``shade_weigh``).
+
+    x, y, z have f fraction bits, the result out_f.
+
+    >>> int(weigh(49152, 16384, 1 << 17, f=18, out_f=16)) / 65536  # 3/4 + 1/4 * 1/2
+    0.875
+    """
+    x, y, z = integers(x, y, z)
+    return round((k0 << f) + kx * x + ky * y + kz * z, f + k.CONSTANT_F - out_f)
 
 
 @cache

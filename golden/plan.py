@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from golden import contract as k
-from golden.fixed import Int, integers
+from golden.fixed import ONE, Int, clamp, integers, weigh
 from golden.poly import span_log2
 
 KAPPA_F = 20
@@ -98,3 +98,39 @@ def plan_fixed(count: ArrayLike, degree: int) -> Records:
     (count,) = integers(count)
     degrees = np.where(count <= k.DIRECT_MAX, k.DEGREE_DIRECT, degree)
     return Records(np.arange(count.size), np.zeros_like(count), count, degrees, span_log2(count))
+
+
+def criterion(
+    ab: ArrayLike,
+    bc: ArrayLike,
+    ca: ArrayLike,
+    threshold: ArrayLike,
+    form: int = k.FORM_REFINED,
+    degree: int = 2,
+) -> tuple[Int, Int, Int, Int]:
+    """(eta, eta > threshold, a cosine clamped, threshold clamped) of a triangle (``shade_criterion``).
+
+    eta, S1.18, is the sum over the edges, whose normals have the cosines ab, bc, ca (S1.16, clamped to [0, 1]), of
+    delta(c) = 1 - sqrt((1 + c)/2). Refined: u/4 + 35 u^2/1024 + 9 u^4/1024, u = 1 - c. Paper: 0.28546133 -
+    0.29073021 c or 0.29222919 - 0.34122087 c + 0.04942337 c^2. Powers are cut to 18 fraction bits (u^2 to 16 before it
+    is squared), the sum is rounded once, to nearest, ties up. The threshold, S1.18, is clamped to [0, 1].
+
+    >>> [int(v) for v in criterion(64225, 64225, 64225, 2621)]  # three edges of 11.5 degrees: 0.01504 > 0.01
+    [3944, 1, 0, 0]
+    """
+    *edges, threshold = integers(ab, bc, ca, threshold)
+    edges, flags = zip(*(clamp(c) for c in edges), strict=True)
+    threshold, threshold_error = clamp(threshold, k.ETA_F)
+    values = [ONE - c for c in edges] if form == k.FORM_REFINED else edges
+    align, cut = k.SQUARE_F - k.INTENSITY_F, 2 * k.INTENSITY_F - k.SQUARE_F
+    first = sum(v << align for v in values)
+    second = sum(v * v >> cut for v in values)
+    fourth = sum((v * v >> k.INTENSITY_F) ** 2 >> cut for v in values)
+    if form == k.FORM_REFINED:
+        weights = (0, k.ETA_U, first, k.ETA_UU, second, k.ETA_UUUU, fourth)
+    elif degree == 2:
+        weights = (3 * k.ETA2_0, k.ETA2_C, first, k.ETA2_CC, second)
+    else:
+        weights = (3 * k.ETA1_0, k.ETA1_C, first)
+    eta = weigh(*weights, f=k.SQUARE_F, out_f=k.ETA_F)
+    return eta, (eta > threshold).astype(np.int64), flags[0] | flags[1] | flags[2], threshold_error

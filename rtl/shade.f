@@ -4,7 +4,10 @@ rtl/fixed/shade_delay.sv
 rtl/fixed/shade_valid.sv
 rtl/fixed/shade_round.sv
 rtl/fixed/shade_saturate.sv
+rtl/fixed/shade_clamp.sv
 rtl/fixed/shade_mul.sv
+rtl/fixed/shade_square.sv
+rtl/fixed/shade_weigh.sv
 rtl/fixed/shade_third.sv
 rtl/fixed/shade_rsqrt_rom.sv
 rtl/fixed/shade_rsqrt.sv
@@ -21,3 +24,12 @@ rtl/stream/shade_fifo.sv
 rtl/poly/shade_span_walk.sv
 rtl/poly/shade_poly_span.sv
 rtl/normal/shade_normalize.sv
+rtl/normal/shade_dot3.sv
+rtl/normal/shade_scale3.sv
+rtl/normal/shade_half.sv
+rtl/normal/shade_invc.sv
+rtl/normal/shade_bisect.sv
+rtl/normal/shade_midpoint.sv
+rtl/normal/shade_node_chain.sv
+rtl/normal/shade_metric.sv
+rtl/plan/shade_criterion.sv

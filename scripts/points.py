@@ -23,6 +23,9 @@ POINTS: dict[str, list[Point]] = {
     ],
     "shade_saturate": [{"WIDTH": 3, "OUT_W": 1}, {"WIDTH": 40, "OUT_W": 8}],
     "shade_mul": [*grid(A_W=[2, 18, 19, 35], STAGES=[0, 2]), {"A_W": 17, "B_W": 2}],
+    "shade_clamp": [{"WIDTH": 20, "F": 18}, {"WIDTH": 3, "F": 1}],
+    "shade_square": [{"WIDTH": 2}, {"WIDTH": 11}],
+    "shade_weigh": [{"K0": 0, "KX": 0, "KY": 65535, "KZ": 43691}, {"WIDTH": 6, "F": 4, "OUT_F": 2, "OUT_W": 12}],
     "shade_third": grid(WIDTH=[4, 28], FORM=[0, 1]),
     "shade_coef_a": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
     "shade_coef_b": grid(WIDTH=[3, 18, 20], NODES=[0, 1]),
@@ -35,6 +38,13 @@ POINTS: dict[str, list[Point]] = {
     "shade_fdiff": grid(COEF_W=[2, 25], D_W=[2], LOG2_MAX=[1, 12]),
     "shade_fifo": grid(WIDTH=[1, 48], LOG2=[1, 4]),
     "shade_span_walk": grid(LOG2_MAX=[2, 12], CREDIT_LOG2=[1, 6]),
+    "shade_scale3": [{"FOLD": 3}],
+    "shade_half": [{"FORM": 0}],
+    "shade_invc": grid(FORM=[0], DEGREE=[1, 2]),
+    "shade_bisect": [{"WAIT": 2}],
+    "shade_midpoint": grid(FORM=[0], DEGREE=[1, 2]),
+    "shade_node_chain": grid(FORM=[0], DEGREE=[1, 2]),
+    "shade_criterion": grid(FORM=[0], DEGREE=[1, 2]),
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
 }
 
@@ -44,6 +54,9 @@ REFUSED: dict[str, list[Point]] = {
     "shade_round": [{"WIDTH": 4, "DROP": 4}, {"DROP": 0}],
     "shade_saturate": [{"WIDTH": 8, "OUT_W": 7}],
     "shade_mul": [{"A_W": 36}, {"B_W": 19}, {"STAGES": 1}],
+    "shade_clamp": [{"WIDTH": 17}, {"F": 0}],
+    "shade_square": [{"WIDTH": 1}, {"WIDTH": 19}],
+    "shade_weigh": [{"WIDTH": 1}, {"OUT_F": 34}, {"KX": 87381, "KY": 87381}],
     "shade_third": [{"WIDTH": 3}, {"WIDTH": 29}, {"FORM": 2}],
     "shade_coef_a": [{"WIDTH": 2}, {"WIDTH": 21}, {"NODES": 2}, {"FORM": 2}],
     "shade_coef_b": [{"WIDTH": 2}, {"WIDTH": 21}, {"NODES": 2}],
@@ -55,6 +68,11 @@ REFUSED: dict[str, list[Point]] = {
     "shade_fdiff": [{"D_W": 1}, {"D_W": 26}, {"LOG2_MAX": 13}],
     "shade_fifo": [{"WIDTH": 0}, {"LOG2": 0}],
     "shade_span_walk": [{"LOG2_MAX": 1}, {"LOG2_MAX": 13}, {"CREDIT_LOG2": 0}],
+    "shade_scale3": [{"FOLD": 2}],
+    "shade_half": [{"FORM": 2}],
+    "shade_invc": [{"FORM": 2}, {"DEGREE": 1}, {"FORM": 0, "DEGREE": 3}],
+    "shade_bisect": [{"WAIT": 0}],
+    "shade_criterion": [{"FORM": 2}, {"DEGREE": 1}, {"FORM": 0, "DEGREE": 3}],
     "shade_poly_span": [{"EVALUATOR": 2}],
 }
 
@@ -63,6 +81,8 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_third": [{"FORM": 0}],
     "shade_coef": [{"FORM": 0}, {"NODES": 1}],
     "shade_poly_span": [{"EVALUATOR": 1}],
+    "shade_scale3": [{"FOLD": 3}],
+    **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }
 
 

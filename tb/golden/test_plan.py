@@ -219,7 +219,7 @@ def test_quantize_kappa(kappa: float, expected: int) -> None:
 def test_what_is_planned_is_smooth_enough(model: str, shininess: float) -> None:
     """Arcs of some tenths of a radian, planned and interpolated: error of the pixels in both channels.
 
-    A chord under cos^n is at most kappa/4 off. The cubic's worst are long arcs, whose middle turns faster than its ends.
+    A chord under cos^n is at most kappa/4 off. Cubics are worst on long arcs, whose middle turns faster than the ends.
     """
     spans, towards = 400, light.unit([-0.3, 0.4, 0.8])
     count = RNG.integers(1, 300, spans)

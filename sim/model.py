@@ -12,7 +12,7 @@ import ctypes
 import operator
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,8 +52,9 @@ class Interface:
 def interface(ports: list[Port]) -> Interface:
     """Sort ports into an input channel, an output channel and status outputs.
 
-    A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel; otherwise all inputs but
-    clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there. Outputs likewise with
+    A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel, and settings beside it change
+    with its rows; otherwise all inputs but clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there.
+    Outputs likewise with
     ``m_axis_<name>_*``, whose other outputs are status, or ``valid_o`` and ``ready_i``.
     """
     names = {port.name for port in ports}
@@ -69,7 +70,8 @@ def interface(ports: list[Port]) -> Interface:
         own = [p for p in own if "_axis_" not in p.name]
         return Channel(own, valid if valid in names else None, ready if ready in names else None), []
 
-    into, _ = channel("input", "s", "valid_i", "ready_o")
+    into, settings = channel("input", "s", "valid_i", "ready_o")
+    into = replace(into, data=into.data + settings)
     out, status = channel("output", "m", "valid_o", "ready_i")
     return Interface("clk_i" in names, "rst_i" in names, into, out, status)
 

@@ -91,6 +91,7 @@ class Bench:
                 scramble(port)
         if hasattr(self.dut, "clk_i"):
             Clock(self.dut.clk_i, PERIOD, "ns").start()
+        await self.tick()  # the clock's first edge comes at once
         await self.reset()
 
     async def reset(self, clocks: int = 2) -> None:

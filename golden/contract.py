@@ -50,6 +50,7 @@ ETA_W = 20  # S1.18, criterion of a triangle and its threshold
 ETA_F = 18
 CONSTANT_F = 16  # fraction bits of the following constants
 INVC_0, INVC_C, INVC_UU = 40768, -8000, 4240  # 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
+INVC_W, HALF_W = 2048, -1024  # w/32, -w/64 with w = max(0, u - 1/2)
 INVC1_0, INVC1_C = 44761, -12517  # 0.683 - 0.191 c
 INVC2_0, INVC2_C, INVC2_CC = 46072, -19661, 6423  # 0.703 - 0.3 c + 0.098 c^2
 HALF_UU = -2304  # 1 - u/4 - 9 u^2/256 = 0.75 + 0.25 c - 9 u^2/256

@@ -53,6 +53,8 @@ package shade_pkg;
   localparam int INVC_0 = 40768;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
   localparam int INVC_C = -8000;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
   localparam int INVC_UU = 4240;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
+  localparam int INVC_W = 2048;  // w/32, -w/64 with w = max(0, u - 1/2)
+  localparam int HALF_W = -1024;  // w/32, -w/64 with w = max(0, u - 1/2)
   localparam int INVC1_0 = 44761;  // 0.683 - 0.191 c
   localparam int INVC1_C = -12517;  // 0.683 - 0.191 c
   localparam int INVC2_0 = 46072;  // 0.703 - 0.3 c + 0.098 c^2

@@ -611,9 +611,9 @@ def _roots(form: str) -> Iterator[Case]:
 
 # constants of the normals' formulas in fractions of 2^16 (golden.contract), by the form and degree of the unit
 INVC = {
-    ("refined", 2): (k.INVC_0, k.INVC_C, k.INVC_UU),
-    ("paper", 2): (k.INVC2_0, k.INVC2_C, k.INVC2_CC),
-    ("paper", 1): (k.INVC1_0, k.INVC1_C, 0),
+    ("refined", 2): (k.INVC_0, k.INVC_C, k.INVC_UU, k.INVC_W),
+    ("paper", 2): (k.INVC2_0, k.INVC2_C, k.INVC2_CC, 0),
+    ("paper", 1): (k.INVC1_0, k.INVC1_C, 0, 0),
 }
 DEGREES = {"refined": (2,), "paper": (2, 1)}
 
@@ -732,10 +732,11 @@ def _invc(form: str, degree: int, c: np.ndarray) -> tuple[np.ndarray, np.ndarray
     """InvC and cos(psi/2) of a unit as numbers, from c as a number in [0, 1], exactly by its formula."""
     c = np.asarray(c, Real)
     square = (1 - c if form == "refined" else c) ** 2
-    k0, k1, k2 = INVC[form, degree]
-    value = (k0 + k1 * c + k2 * square) / ONE
+    w = np.maximum(Real(0.5) - c, 0)
+    k0, k1, k2, k3 = INVC[form, degree]
+    value = (k0 + k1 * c + k2 * square + k3 * w) / ONE
     if form == "refined":
-        return value, (k.D2_NEAR_0 + k.D2_NEAR_C * c + k.HALF_UU * square) / ONE
+        return value, (k.D2_NEAR_0 + k.D2_NEAR_C * c + k.HALF_UU * square + k.HALF_W * w) / ONE
     far = c * ONE <= k.D2_LIMIT
     return value, np.where(far, k.D2_FAR_0 + k.D2_FAR_C * c, k.D2_NEAR_0 + k.D2_NEAR_C * c) / ONE
 

@@ -1,7 +1,9 @@
 // shade_half: h = cos(psi/2), the cosine of half an angle, from c = cos psi.
 //
-//   FORM_REFINED  h = 1 - u/4 - 9 u^2/256     u = 1 - c: exactly 1 for c = 1, within 1.9e-4 for c >= 1/2
+//   FORM_REFINED  h = 1 - u/4 - 9 u^2/256 - w/64      u = 1 - c, w = max(0, u - 1/2)
 //   FORM_PAPER    h = 0.25 c + 0.75, where c <= cos(pi/4) 0.305 c + 0.712: P4's d2, within 0.7 %
+//
+// Refined: exactly 1 for c = 1, within 1.9e-4 for c >= 1/2, 1.9e-3 below.
 //
 //   c_i      U1.16 in [0, 1]
 //   uu_i     U1.18, u^2, taken one clock after c_i; not used by the paper's form
@@ -27,13 +29,17 @@ module shade_half #(
   localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
   localparam logic [shade_pkg::INTENSITY_F:0] LIMIT = (shade_pkg::INTENSITY_F + 1)'(shade_pkg::D2_LIMIT);
 
-  // both forms: 3/4 + c/4 and a correction, -9 u^2/256 or, where c <= LIMIT, the difference of the two straight lines
+  // both forms: 3/4 + c/4 and a correction, -9 u^2/256 - w/64 or, where c <= LIMIT, the difference of two lines
   logic signed [WIDTH-1:0] c_q1, y, z;
   always_ff @(posedge clk_i) c_q1 <= $signed({1'b0, c_i, {ALIGN{1'b0}}});
 
   if (REFINED) begin : g_refined
+    localparam int C_W = shade_pkg::INTENSITY_F + 1;
+    localparam logic [C_W-1:0] MIDDLE = C_W'(1) << (shade_pkg::INTENSITY_F - 1);
+    logic [C_W-1:0] w_q1;
+    always_ff @(posedge clk_i) w_q1 <= c_i < MIDDLE ? MIDDLE - c_i : '0;
     assign y = $signed({1'b0, uu_i});
-    assign z = '0;
+    assign z = $signed({1'b0, w_q1, {ALIGN{1'b0}}});
   end else begin : g_paper
     logic far_q1;
     logic [shade_pkg::INTENSITY_F:0] far_c_q1;
@@ -52,6 +58,6 @@ module shade_half #(
     .K0(shade_pkg::D2_NEAR_0),
     .KX(shade_pkg::D2_NEAR_C),
     .KY(REFINED ? shade_pkg::HALF_UU : shade_pkg::D2_FAR_C - shade_pkg::D2_NEAR_C),
-    .KZ(REFINED ? 0 : shade_pkg::D2_FAR_0 - shade_pkg::D2_NEAR_0)
+    .KZ(REFINED ? shade_pkg::HALF_W : shade_pkg::D2_FAR_0 - shade_pkg::D2_NEAR_0)
   ) u_weigh (.clk_i, .x_i(c_q1), .y_i(y), .z_i(z), .w_o(half_o));
 endmodule

@@ -1,11 +1,11 @@
 // shade_invc: InvC = 1/sqrt(2 (1 + c)) and h = cos(psi/2) for c = cos psi: what the middle of two unit normals needs.
 //
-//   FORM_REFINED            InvC = 1/2 + 125 u/1024 + 265 u^2/4096    h = 1 - u/4 - 9 u^2/256    u = 1 - c
-//   FORM_PAPER, DEGREE = 1  InvC1 = 0.683 - 0.191 c                   h = d2(c), see shade_half
-//   FORM_PAPER, DEGREE = 2  InvC2 = 0.703 - 0.3 c + 0.098 c^2         h = d2(c)
+//   FORM_REFINED            InvC = 1/2 + 125 u/1024 + 265 u^2/4096 + w/32    h = 1 - u/4 - 9 u^2/256 - w/64
+//   FORM_PAPER, DEGREE = 1  InvC1 = 0.683 - 0.191 c                          h = d2(c), see shade_half
+//   FORM_PAPER, DEGREE = 2  InvC2 = 0.703 - 0.3 c + 0.098 c^2                h = d2(c)
 //
-// Refined, both are exact for c = 1 (two equal normals), and from one square; for c >= 1/2 within 3.2e-4 (relative) and
-// 1.9e-4. h is the c of the two halves of the interval.
+// with u = 1 - c, w = max(0, u - 1/2). Refined, both come from one square and are exact for c = 1 (equal normals); for
+// c >= 1/2 within 3.2e-4 (relative) and 1.9e-4, below within 0.7 % and 1.9e-3. h is the c of the interval's halves.
 //
 //   c_i        S1.16, clamped to [0, 1]; clamped_o tells, with the result
 //   u^2, c^2   18 fraction bits, the rest is cut
@@ -40,14 +40,16 @@ module shade_invc #(
   localparam int ALIGN = F - shade_pkg::INTENSITY_F;
   localparam int CUT = 2 * shade_pkg::INTENSITY_F - F;
   localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
+  localparam logic [C_W-1:0] MIDDLE = C_W'(1) << (shade_pkg::INTENSITY_F - 1);
 
-  logic [C_W-1:0] c, c_q1, c_q2, c_q3, v_q1;  // v: what is squared, u or c
+  logic [C_W-1:0] c, c_q1, c_q2, c_q3, w_q3, v_q1;  // v: what is squared, u or c
   logic clamped, clamped_q1;
   shade_clamp u_clamp (.x_i(c_i), .y_o(c), .clamped_o(clamped));
   always_ff @(posedge clk_i) begin
     c_q1       <= c;
     c_q2       <= c_q1;
     c_q3       <= c_q2;
+    w_q3       <= REFINED && c_q2 < MIDDLE ? MIDDLE - c_q2 : '0;
     v_q1       <= REFINED ? (C_W'(1) << shade_pkg::INTENSITY_F) - c : c;
     clamped_q1 <= clamped;
   end
@@ -64,12 +66,13 @@ module shade_invc #(
   logic signed [shade_pkg::INVC_F:0] invc;
   assign x = $signed({1'b0, c_q3, {ALIGN{1'b0}}});
   assign y = $signed({1'b0, vv_q3});
-  assign z = '0;
+  assign z = $signed({1'b0, w_q3, {ALIGN{1'b0}}});
   shade_weigh #(
     .WIDTH(WIDTH), .F(F), .OUT_W(shade_pkg::INVC_F + 1), .OUT_F(shade_pkg::INVC_F),
     .K0(REFINED ? shade_pkg::INVC_0 : LINEAR ? shade_pkg::INVC1_0 : shade_pkg::INVC2_0),
     .KX(REFINED ? shade_pkg::INVC_C : LINEAR ? shade_pkg::INVC1_C : shade_pkg::INVC2_C),
-    .KY(REFINED ? shade_pkg::INVC_UU : LINEAR ? 0 : shade_pkg::INVC2_CC)
+    .KY(REFINED ? shade_pkg::INVC_UU : LINEAR ? 0 : shade_pkg::INVC2_CC),
+    .KZ(REFINED ? shade_pkg::INVC_W : 0)
   ) u_invc (.clk_i, .x_i(x), .y_i(y), .z_i(z), .w_o(invc));
   assign invc_o = invc[shade_pkg::INVC_F-1:0];
   logic unused_sign;

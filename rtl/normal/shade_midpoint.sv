@@ -5,9 +5,9 @@
 //   half_o                       S1.16     cos(psi/2): the cosine of either to n
 //
 // FORM and DEGREE: see shade_invc. Refined: the length of n is 1 within 2 ulp for equal unit normals, within 3.5e-4 for
-// c >= 1/2; paper: 0.2 % wrong for equal ones (DEGREE 2), 1.6 % (DEGREE 1).
+// c >= 1/2, 0.7 % below; paper: 0.2 % wrong for equal ones (DEGREE 2), 1.6 % (DEGREE 1).
 // Four 18 x 18 multipliers (three in DEGREE 1). Latency LATENCY_MIDPOINT = 10 clocks, one vector a clock.
-// Source: P4, section 2. Example: Na = (0, 0.6, 0.8), Nb = (0, -0.6, 0.8), c = 0.28 -> n = (0, 0, 0.9943), refined.
+// Source: P4, section 2. Example: Na = (0, 0.5, 0.866), Nb = (0, -0.5, 0.866), c = 0.5 -> n = (0, 0, 0.99976), refined.
 module shade_midpoint #(
   parameter int FORM   = shade_pkg::FORM_REFINED,
   parameter int DEGREE = 2

@@ -74,13 +74,32 @@ DEGREE_W = 2
 TAG_W = 16
 PIXELS_MAX = 1 << LOG2_MAX
 DIRECT_MAX = NODE_COUNT  # pixels of a span in direct mode
+NORMAL_FIFO_LOG2 = 6  # normals that shade_pixel_normals can hold back: more than its latency
 FIFO_LOG2 = 5  # pixels that shade_poly_span can hold back for a stalled consumer: 2^5
+
+# ---- lines of normals ------------------------------------------------------------------------------------------
+STEP_F = 29  # S2.29: after 4096 increments, each 1/2 ulp wrong, a component is still right to 1/4 ulp of S1.16
+STEP_W = 32
+VARIANT_REFINED = 0  # every other normal by the anchored InvC
+VARIANT_V1 = 1  # P4: d1a < threshold: InvC1, else the mean
+VARIANT_V2 = 2  # d1a < threshold: InvC2, else the mean
+VARIANT_V3 = 3  # the mean
+VARIANT_V4 = 4  # d2 < threshold: InvC1, else the mean
+VARIANT_V5 = 5  # d2 < threshold: InvC2, else the mean
+VARIANT_V6 = 6  # the mean
+VARIANT_EXACT = 7  # every normal normalized
+VARIANT_W = 3
 
 # ---- packets (AXI4-Stream, one beat each) ----------------------------------------------------------------------
 SPAN_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
 SPAN_COUNT_LSB = 144  # pixels of the span
 SPAN_DEGREE_LSB = 158  # 0 direct, 1 linear, 2 quadratic, 3 cubic
 SPAN_TAG_LSB = 160  # given back with every pixel
+LINE_DATA_W = 256  # words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
+LINE_COUNT_LSB = 192  # normals of the line
+LINE_TAG_LSB = 208
+LINE_COS_LSB = 224  # cosine between the line's end normals, S1.16, for d1a
+NORMAL_DATA_W = 64  # x, y, z, S1.16, at bit 0, 18, 36
 PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
 
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
@@ -104,6 +123,9 @@ LATENCY_MIDPOINT = LATENCY_INVC + LATENCY_SCALE3
 LATENCY_NODE_CHAIN = 2 * LATENCY_INVC + LATENCY_SCALE3
 LATENCY_METRIC = 1 + LATENCY_HALF + 1  # clamps, decisions
 LATENCY_CRITERION = 1 + 2 * LATENCY_MUL + 2 + LATENCY_WEIGH + 1  # u, u^2, u^4, sums of the edges, decision
+LATENCY_INCREMENT = 2  # sum, rounding
+LATENCY_MIDDLE = LATENCY_DOT3 + LATENCY_INVC + 1 + LATENCY_SCALE3  # cosine, factor, choice, scaling
+LATENCY_PIXEL_NORMALS = 2 + LATENCY_INCREMENT + LATENCY_NORMALIZE + 1 + LATENCY_MIDDLE + LATENCY_FIFO
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 
@@ -112,6 +134,11 @@ ERROR_EMPTY = 0  # a span of 0 pixels
 ERROR_LONG = 1  # more pixels than 2^LOG2_MAX
 ERROR_DIRECT = 2  # direct mode with more than four pixels
 ERROR_W = 3
+
+# ---- error bits of shade_pixel_normals ------------------------------------------------------------------------
+ERROR_METRIC = 2  # V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
+ERROR_THRESHOLD = 3  # threshold outside [0, 1]; taken as 0 or 1
+LINE_ERROR_W = 4
 
 
 def constants() -> dict[str, int]:

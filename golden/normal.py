@@ -158,3 +158,89 @@ def metric(c: ArrayLike, m: ArrayLike, threshold: ArrayLike = k.METRIC_THRESHOLD
     d2 = half(c, k.FORM_PAPER)
     flags = (d1a < threshold, d2 < threshold, clamped, m != valid, threshold_error)
     return d1a, d2, *(flag.astype(np.int64) for flag in flags)
+
+
+def increment(first: ArrayLike, line: ArrayLike, n: ArrayLike, g: ArrayLike, l: ArrayLike) -> Int:  # noqa: E741
+    """One component of interpolated normals, S1.16, step by step (``shade_increment``).
+
+    Arrays (rows,): where ``first`` is set, P = L = n; else where ``line`` is, P = L = L + l; else P = P + g. n, g, l
+    and the sums are S2.29 and wrap; P is rounded to nearest, ties up. The first row must be a first one.
+
+    >>> one, eighth = 1 << 29, 1 << 26
+    >>> increment([1, 0, 0], [0, 0, 0], one, eighth, 0).tolist()
+    [65536, 73728, 81920]
+    """
+    first, line, n, g, l = integers(first, line, n, g, l)  # noqa: E741
+    first, line = first.astype(bool), line.astype(bool)
+    row = np.arange(len(first))
+    triangle = np.maximum.accumulate(np.where(first, row, 0))  # row in which the triangle of each row began
+    start = np.maximum.accumulate(np.where(first | line, row, 0))  # and its line
+    lines = np.cumsum(np.where(line & ~first, l, 0))
+    pixels = np.cumsum(np.where(first | line, 0, g))
+    position = n[triangle] + (lines - lines[triangle]) + (pixels - pixels[start])
+    return round(_wrap(position, k.STEP_W), k.STEP_F - k.INTENSITY_F)
+
+
+def _wrap(value: Int, width: int) -> Int:
+    """What a signed register of so many bits makes of a number."""
+    half = 1 << width - 1
+    return ((value + half) & ((1 << width) - 1)) - half
+
+
+def pixel_normals(
+    n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, variant: ArrayLike, threshold: ArrayLike
+) -> tuple[Int, Int]:
+    """Unit normals of a sequence of lines: ((P, 3) S1.16, index of their line (P,)) (``shade_pixel_normals``).
+
+    ``n``, ``g`` (S, 3), S2.29: normal of the first pixel and increment; ``count`` (S,) pixels; ``cosine`` (S,) of the
+    line's ends, S1.16; ``variant``, ``threshold`` (S,) or one for all. Pixels 0, 2, 4, ... and the last one are
+    normalized, the others are the middle of their neighbours times the variant's factor. Lines without pixels or with
+    too many give none.
+
+    >>> pixel_normals([[0, 0, 1 << 29]], [[0, 0, 0]], [2], [65536], k.VARIANT_V3, 0)[0].tolist()
+    [[0, 0, 65536], [0, 0, 65536]]
+    """
+    n, g = integers(n, g)
+    count, cosine, variant, threshold = integers(count, cosine, variant, threshold)
+    pixels = np.where(count <= k.PIXELS_MAX, count, 0)
+    line = np.repeat(np.arange(count.size), pixels)
+    j = np.arange(line.size) - np.repeat(np.cumsum(pixels) - pixels, pixels)
+    variant, limit = variant[line], threshold[line]
+
+    def exact(i: Int) -> tuple[Int, Int, Int]:
+        vector = _wrap(n[line] + i[:, None] * g[line], k.STEP_W)
+        return normalize(*np.moveaxis(_wrap(round(vector, k.STEP_F - k.INTENSITY_F), k.INTENSITY_W), -1, 0))
+
+    middle = (j % 2 == 1) & (j < count[line] - 1) & (variant != k.VARIANT_EXACT)
+    a, b = exact(j - middle), exact(j + middle)
+    c = dot3(*a, *b)
+    needs_d1 = metric(cosine, count - 1, threshold)[2][line].astype(bool)
+    needs_d2 = metric(c, k.METRIC_M_MIN, limit)[3].astype(bool)
+    first_degree, second_degree = (invc(c, k.FORM_PAPER, degree)[0] for degree in (1, 2))
+    factors = {
+        k.VARIANT_REFINED: (True, invc(c)[0]),
+        k.VARIANT_V1: (needs_d1, first_degree),
+        k.VARIANT_V2: (needs_d1, second_degree),
+        k.VARIANT_V4: (needs_d2, first_degree),
+        k.VARIANT_V5: (needs_d2, second_degree),
+    }
+    cases = [middle & (variant == code) & needed for code, (needed, _) in factors.items()]
+    s = np.select(cases, [factor for _, factor in factors.values()], 1 << k.INVC_F - 1)  # 1/2: (E + E) / 2 = E
+    return np.stack(bisect(*a, *b, s), axis=-1), line
+
+
+def line_errors(count: ArrayLike, variant: ArrayLike, threshold: ArrayLike) -> Int:
+    """The error bits that a line sets; with ERROR_EMPTY or ERROR_LONG it gives no normals (``shade_pixel_normals``)."""
+    count, variant, threshold = integers(count, variant, threshold)
+    bad = ((count == 0) << k.ERROR_EMPTY) | ((count > k.PIXELS_MAX) << k.ERROR_LONG)
+    *_, m_error, threshold_error = metric(0, count - 1, threshold)
+    asks = (variant == k.VARIANT_V1) | (variant == k.VARIANT_V2)
+    return np.where(bad > 0, bad, (m_error & asks) << k.ERROR_METRIC | threshold_error << k.ERROR_THRESHOLD)
+
+
+def pack_lines(n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, tag: ArrayLike = 0) -> np.ndarray:
+    """Lines as beats of ``s_axis_line_tdata``: (S, 8) uint32. Layout: golden.contract."""
+    n, g = integers(n, g)
+    count, cosine, tag = integers(count, cosine, tag)
+    words = [*n.T, *g.T, count | tag << k.LINE_TAG_LSB - k.LINE_COUNT_LSB, cosine & ((1 << k.INTENSITY_W) - 1)]
+    return (np.stack(words, axis=-1) & 0xFFFFFFFF).astype(np.uint32)

@@ -21,6 +21,7 @@ rtl/poly/shade_horner_pipe.sv
 rtl/poly/shade_horner_seq.sv
 rtl/poly/shade_fdiff.sv
 rtl/stream/shade_fifo.sv
+rtl/stream/shade_walk.sv
 rtl/poly/shade_span_walk.sv
 rtl/poly/shade_poly_span.sv
 rtl/normal/shade_normalize.sv
@@ -33,3 +34,5 @@ rtl/normal/shade_midpoint.sv
 rtl/normal/shade_node_chain.sv
 rtl/normal/shade_metric.sv
 rtl/plan/shade_criterion.sv
+rtl/normal/shade_increment.sv
+rtl/normal/shade_pixel_normals.sv

@@ -90,13 +90,32 @@ package shade_pkg;
   localparam int TAG_W = 16;
   localparam int PIXELS_MAX = 4096;
   localparam int DIRECT_MAX = 4;  // pixels of a span in direct mode
+  localparam int NORMAL_FIFO_LOG2 = 6;  // normals that shade_pixel_normals can hold back: more than its latency
   localparam int FIFO_LOG2 = 5;  // pixels that shade_poly_span can hold back for a stalled consumer: 2^5
+
+  // lines of normals
+  localparam int STEP_F = 29;  // S2.29: after 4096 increments, each 1/2 ulp wrong, a component is still right to 1/4 ulp of S1.16
+  localparam int STEP_W = 32;
+  localparam int VARIANT_REFINED = 0;  // every other normal by the anchored InvC
+  localparam int VARIANT_V1 = 1;  // P4: d1a < threshold: InvC1, else the mean
+  localparam int VARIANT_V2 = 2;  // d1a < threshold: InvC2, else the mean
+  localparam int VARIANT_V3 = 3;  // the mean
+  localparam int VARIANT_V4 = 4;  // d2 < threshold: InvC1, else the mean
+  localparam int VARIANT_V5 = 5;  // d2 < threshold: InvC2, else the mean
+  localparam int VARIANT_V6 = 6;  // the mean
+  localparam int VARIANT_EXACT = 7;  // every normal normalized
+  localparam int VARIANT_W = 3;
 
   // packets (AXI4-Stream, one beat each)
   localparam int SPAN_DATA_W = 192;  // node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
   localparam int SPAN_COUNT_LSB = 144;  // pixels of the span
   localparam int SPAN_DEGREE_LSB = 158;  // 0 direct, 1 linear, 2 quadratic, 3 cubic
   localparam int SPAN_TAG_LSB = 160;  // given back with every pixel
+  localparam int LINE_DATA_W = 256;  // words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
+  localparam int LINE_COUNT_LSB = 192;  // normals of the line
+  localparam int LINE_TAG_LSB = 208;
+  localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
+  localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
 
   // latencies, in clocks from an input taken to the output it causes
@@ -120,6 +139,9 @@ package shade_pkg;
   localparam int LATENCY_NODE_CHAIN = 17;
   localparam int LATENCY_METRIC = 7;  // clamps, decisions
   localparam int LATENCY_CRITERION = 12;  // u, u^2, u^4, sums of the edges, decision
+  localparam int LATENCY_INCREMENT = 2;  // sum, rounding
+  localparam int LATENCY_MIDDLE = 15;  // cosine, factor, choice, scaling
+  localparam int LATENCY_PIXEL_NORMALS = 41;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 
@@ -128,6 +150,11 @@ package shade_pkg;
   localparam int ERROR_LONG = 1;  // more pixels than 2^LOG2_MAX
   localparam int ERROR_DIRECT = 2;  // direct mode with more than four pixels
   localparam int ERROR_W = 3;
+
+  // error bits of shade_pixel_normals
+  localparam int ERROR_METRIC = 2;  // V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
+  localparam int ERROR_THRESHOLD = 3;  // threshold outside [0, 1]; taken as 0 or 1
+  localparam int LINE_ERROR_W = 4;
 
 endpackage
 /* verilator lint_on UNUSEDPARAM */

@@ -33,8 +33,10 @@ def cli() -> None:
 @click.option("--size", default=VIEW.size, help="Width and height in pixels, 16 to 4096.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
 @click.option("--degree", default=3, help="Degree of every span in form paper, 1 to 3.")
-@click.option("--path", default="poly", help="poly: a polynomial along each span.")
+@click.option("--path", default="poly", help="poly: a polynomial along each span; normals: a unit normal every pixel.")
 @click.option("--evaluator", default="horner", help="horner: a multiplier per step; fdiff: forward differences, none.")
+@click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
+@click.option("--threshold", default=0.9, help="Length below which V1, V2, V4, V5 normalize, 0 to 1.")
 @click.option("--model", default="blinn", help=f"Light: {', '.join(MODELS)}.")
 @click.option("--shininess", default=32.0, help="Exponent n of the highlight, 1 to 1024.")
 @click.option(
@@ -51,9 +53,7 @@ def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, fi
 
     Every pixel is compared with the golden model; exit status 1 if any differs.
     """
-    out, path = options.pop("out"), options.pop("path")
-    if path != "poly":
-        raise UserError(f"--path: {path!r} is none of poly")
+    out = options.pop("out")
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
     settings = frame.Settings(camera=camera, **options)
     if out is not None and (not out or "\0" in out or (os.path.exists(out) and not os.path.isdir(out))):

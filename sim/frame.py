@@ -1,7 +1,8 @@
 """One frame through the RTL: mesh -> spans -> plan -> light at the nodes -> RTL -> z-buffer -> pictures and report.
 
-The light at the nodes is float64, quantized to S1.16; coefficients and every pixel come out of the Verilated
-``shade_poly_span``, and each is compared with the golden model, bit for bit.
+Path ``poly``: the light at the nodes is float64, quantized to S1.16; coefficients and every pixel come out of the
+Verilated ``shade_poly_span``. Path ``normals``: every normal comes out of ``shade_pixel_normals``, its light is
+float64. Each pixel or normal is compared with the golden model, bit for bit.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import json
 import os
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,6 +22,7 @@ from tqdm import tqdm
 
 import sim
 from golden import contract, plan, poly
+from golden import normal as normals
 from golden.reference import light as reference
 from scripts import tools
 from sim.errors import UserError
@@ -29,7 +32,10 @@ from sim.scene.raster import Spans, expand, resolve, scan_convert
 
 FORMS = {"paper": contract.FORM_PAPER, "refined": contract.FORM_REFINED}
 EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
-RANGES = {"shininess": (1.0, 1024.0), "degree": (1, 3)}
+PATHS = ("poly", "normals")
+VARIANTS = {name.removeprefix("VARIANT_"): code for name, code in contract.constants().items() if "VARIANT_V" in name}
+VARIANTS |= {"refined": contract.VARIANT_REFINED, "exact": contract.VARIANT_EXACT}
+RANGES = {"shininess": (1.0, 1024.0), "threshold": (0.0, 1.0), "degree": (1, 3)}
 ONE = 1 << contract.INTENSITY_F
 TAGS = 1 << contract.TAG_W
 DIFFERENCE_GAIN = 256  # an error of 1/256, one step of an 8-bit picture, is white
@@ -47,15 +53,25 @@ class Settings:
     mesh: str = "head"
     subdivide: int = 0
     camera: Camera = field(default_factory=Camera)
+    path: str = "poly"
     form: str = "refined"
     evaluator: str = "horner"
+    variant: str = "refined"  # of path normals, and the threshold below which V1, V2, V4 and V5 normalize
+    threshold: float = 0.9
     model: str = "blinn"
     shininess: float = 32.0
     light: tuple[float, float, float] = (0.3, 0.6, 0.8)
     degree: int = 3  # of every span in form paper
 
     def __post_init__(self) -> None:
-        for name, allowed in (("form", FORMS), ("evaluator", EVALUATORS), ("model", reference.MODELS)):
+        choices = {
+            "path": PATHS,
+            "form": FORMS,
+            "evaluator": EVALUATORS,
+            "variant": VARIANTS,
+            "model": reference.MODELS,
+        }
+        for name, allowed in choices.items():
             if getattr(self, name) not in allowed:
                 raise UserError(f"--{name}: {getattr(self, name)!r} is none of {', '.join(allowed)}")
         for name, (low, high) in RANGES.items():
@@ -142,6 +158,64 @@ def quantize(intensity: NDArray[np.float64]) -> NDArray[np.int64]:
     return np.clip(np.rint(intensity * ONE), -limit, limit - 1).astype(np.int64)
 
 
+@dataclass(frozen=True)
+class Drawn:
+    """What a way through the RTL made of a frame's spans."""
+
+    intensity: NDArray[np.float64]  # (P, 2) of every pixel in stream order, clamped
+    run: sim.Run
+    seconds: float  # of simulation
+    evaluations: int  # of light
+    more: dict  # its own part of the report
+
+
+def draw_poly(spans: Spans, settings: Settings, stage: Callable[[str], None]) -> Drawn:
+    """Polynomials: light at the nodes from float64, every pixel from ``shade_poly_span``."""
+    stage("plan")
+    records = plan_spans(spans, settings)
+    nodes, evaluations = node_light(spans, records, settings)
+    tag = np.arange(len(records)) % TAGS
+    beats = poly.pack_spans(nodes, records.degree, records.count, tag)
+    parameters = {"EVALUATOR": EVALUATORS[settings.evaluator], "FORM": FORMS[settings.form]}
+    model = sim.load("shade_poly_span", **parameters)
+    stage("simulate")
+    began = time.perf_counter()
+    run = model.run(s_axis_span_tdata=beats)
+    seconds = time.perf_counter() - began
+    stage("compare")
+    golden, owner = poly.poly_span(
+        nodes, records.degree, records.count, evaluator=parameters["EVALUATOR"], form=parameters["FORM"]
+    )
+    pixels, mismatch = _compare(run, beats, golden, tag, owner)
+    more = {"evaluator": settings.evaluator, "records": len(records), **mismatch}
+    return Drawn(pixels / ONE, run, seconds, evaluations, more)
+
+
+def draw_normals(spans: Spans, settings: Settings, stage: Callable[[str], None]) -> Drawn:
+    """Pixel normals: every normal from ``shade_pixel_normals``, light from float64 with the normals as they are."""
+    stage("plan")
+    ends = spans.normal, spans.normal + (spans.count[:, None] - 1) * spans.gradient
+    cosine = quantize(np.sum(reference.unit(ends[0]) * reference.unit(ends[1]), axis=-1))
+    scale = 1 << contract.STEP_F
+    first, step = (np.rint(part * scale).astype(np.int64) for part in (spans.normal, spans.gradient))
+    tag = np.arange(len(spans)) % TAGS
+    beats = normals.pack_lines(first, step, spans.count, cosine, tag)
+    model = sim.load("shade_pixel_normals")
+    stage("simulate")
+    began = time.perf_counter()
+    code, threshold = VARIANTS[settings.variant], int(quantize(np.asarray(settings.threshold)))
+    run = model.run(s_axis_line_tdata=beats, variant_i=code, threshold_i=threshold)
+    seconds = time.perf_counter() - began
+    stage("compare")
+    golden, owner = normals.pixel_normals(first, step, spans.count, cosine, code, threshold)
+    width = contract.INTENSITY_W
+    words = sum((golden[:, i] & (1 << width) - 1) << width * i for i in range(3))
+    actual, mismatch = _compare_words(run, "normal", beats, words, tag, owner)
+    vectors = np.stack([actual << 64 - width * (i + 1) >> 64 - width for i in range(3)], axis=-1) / ONE
+    light = reference.light_channels(settings.model, vectors, settings.light, settings.shininess, as_given=True)
+    return Drawn(light.clip(0, 1), run, seconds, len(golden), {"variant": settings.variant, **mismatch})
+
+
 def render(settings: Settings) -> Frame:
     """Render a frame through the RTL and compare it with the golden model and with float64.
 
@@ -160,77 +234,79 @@ def render(settings: Settings) -> Frame:
         stage("scan")
         spans = scan_convert(settings.camera.project(mesh), mesh.faces, size)
         visible = resolve(spans, size)
-        stage("plan")
-        records = plan_spans(spans, settings)
-        nodes, evaluations = node_light(spans, records, settings)
-        tag = np.arange(len(records)) % TAGS
-        beats = poly.pack_spans(nodes, records.degree, records.count, tag)
-        stage("simulate")
-        model = sim.load("shade_poly_span", EVALUATOR=EVALUATORS[settings.evaluator], FORM=FORMS[settings.form])
-        simulated = time.perf_counter()
-        run = model.run(s_axis_span_tdata=beats)
-        simulated = time.perf_counter() - simulated
-        stage("compare")
-        golden, owner = poly.poly_span(
-            nodes, records.degree, records.count, evaluator=EVALUATORS[settings.evaluator], form=FORMS[settings.form]
-        )
-        pixels, mismatch = _compare(run, beats, golden, tag, owner)
+        drawn = (draw_poly if settings.path == "poly" else draw_normals)(spans, settings, stage)
         stage("reference")
         every = expand(spans, size)
         normal = spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
         light = reference.light_channels(settings.model, normal, settings.light, settings.shininess)
         exact = light.clip(0, 1)
 
-    intensity = pixels / ONE
+    pixels, cycles = spans.pixels, drawn.run.clocks
     report = {
         "mesh": settings.mesh,
         "size": size,
         "form": settings.form,
-        "path": "poly",
-        "evaluator": settings.evaluator,
+        "path": settings.path,
         "model": settings.model,
         "shininess": settings.shininess,
         "triangles": len(mesh.faces),
         "repairs": mesh.repairs,
         "spans": len(spans),
-        "records": len(records),
-        "pixels": len(golden),
+        "pixels": pixels,
         "visible_pixels": int((visible >= 0).sum()),
-        **mismatch,
-        "cycles": run.clocks,
-        "pixels_per_cycle": len(golden) / run.clocks if run.clocks else None,
-        "light_evaluations": evaluations,
-        "light_evaluations_per_pixel": evaluations / len(golden) if len(golden) else None,
-        **errors(intensity, exact, visible),
-        "simulated_pixels_per_second": len(golden) / simulated,
+        **drawn.more,
+        "cycles": cycles,
+        "pixels_per_cycle": pixels / cycles if cycles else None,
+        "light_evaluations": drawn.evaluations,
+        "light_evaluations_per_pixel": drawn.evaluations / pixels if pixels else None,
+        **errors(drawn.intensity, exact, visible),
+        "simulated_pixels_per_second": pixels / drawn.seconds,
         "wall_seconds": time.perf_counter() - began,
         "versions": tools.versions(),
     }
-    return Frame(visible, intensity, exact, report, size)
+    return Frame(visible, drawn.intensity, exact, report, size)
 
 
 def _compare(run: sim.Run, beats, golden, tag, owner) -> tuple[NDArray[np.int64], dict]:
-    """The RTL's pixels (P, 2), and ``mismatches`` with the first one: its record (-1: none), input and outputs."""
+    """The RTL's pixels (P, 2), and ``mismatches`` with the first one."""
+    words = golden[:, 0] | golden[:, 1] << contract.PIXEL_W
+    actual, result = _compare_words(run, "pixel", beats, words, tag, owner)
+    mask = (1 << contract.PIXEL_W) - 1
+    return np.stack([actual & mask, actual >> contract.PIXEL_W & mask], axis=-1), result
+
+
+def _compare_words(run: sim.Run, stream: str, beats, words, tag, owner) -> tuple[NDArray[np.int64], dict]:
+    """The data that ``m_axis_<stream>`` gave, as many as there should be (0 where none came), and ``mismatches``.
+
+    ``first_mismatch``: the pixel, its record (-1: none) and input; expected and actual as {tlast, tuser, tdata}.
+    """
     last = np.append(np.diff(owner), 1)[: len(owner)] != 0
-    expected = golden[:, 0] | golden[:, 1] << contract.PIXEL_W | tag[owner] << 32 | last.astype(np.int64) << 48
-    actual = run.m_axis_pixel_tdata | run.m_axis_pixel_tuser << 32 | run.m_axis_pixel_tlast << 48
-    shared = min(len(expected), len(actual))
-    wrong = np.flatnonzero(expected[:shared] != actual[:shared])
-    result: dict = {"mismatches": len(wrong) + abs(len(expected) - len(actual))}
+    expected = last.astype(np.int64), tag[owner], words
+    actual = [run.outputs[f"m_axis_{stream}_{name}"] for name in ("tlast", "tuser", "tdata")]
+    count, came = len(words), len(actual[0])
+    shared = min(count, came)
+    wrong = np.flatnonzero(np.any([e[:shared] != a[:shared] for e, a in zip(expected, actual, strict=True)], axis=0))
+    result: dict = {"mismatches": len(wrong) + abs(count - came)}
     if result["mismatches"]:
         at = int(wrong[0]) if len(wrong) else shared
-        record = int(owner[at]) if at < len(owner) else -1
+        record = int(owner[at]) if at < count else -1
+
+        def shown(parts, rows: int) -> str:
+            ends, tags, data = parts
+            width = {"pixel": contract.PIXEL_DATA_W, "normal": contract.NORMAL_DATA_W}[stream]
+            whole = (int(ends[at]) << contract.TAG_W | int(tags[at])) << width | int(data[at]) if at < rows else 0
+            return f"{whole:#x}" if at < rows else "none"
+
         result["first_mismatch"] = {
             "pixel": at,
             "record": record,
             "input": f"0x{beats[record, ::-1].astype('>u4').tobytes().hex()}" if record >= 0 else "none",
-            "expected": f"{expected[at]:#015x}" if at < len(expected) else "none",
-            "actual": f"{actual[at]:#015x}" if at < len(actual) else "none",
+            "expected": shown(expected, count),
+            "actual": shown(actual, came),
         }
-    pixels = np.zeros_like(golden)
-    pixels[:shared, 0] = actual[:shared] & 0xFFFF
-    pixels[:shared, 1] = actual[:shared] >> contract.PIXEL_W & 0xFFFF
-    return pixels, result
+    data = np.zeros(count, np.int64)
+    data[:shared] = actual[2][:shared]
+    return data, result
 
 
 def errors(intensity, exact, visible) -> dict[str, float | None]:

@@ -942,6 +942,7 @@ def _increment(form: str) -> Iterator[Case]:
 def cases() -> list[Case]:
     """All cases of all units, both forms, in the order of the data's way."""
     parts = (
-        _steps, _weigh, _waits, _third, _coef, _horner, _fdiff, _roots, _vectors, _cosines, _nodes, _decisions
+        _steps, _weigh, _waits, _third, _coef, _horner, _fdiff, _roots, _vectors, _cosines, _nodes, _decisions,
+        _increment,
     )  # fmt: skip
     return [case for part in parts for form in FORMS for case in part(form)]

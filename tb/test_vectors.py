@@ -9,7 +9,7 @@ import pytest
 from golden import contract as k
 from golden import normal
 from golden.fixed import ONE
-from sim.units import Case, cases, check_poly_span, unit_vectors
+from sim.units import Case, cases, check_pixel_normals, check_poly_span, unit_vectors
 from tb.runner import SEED
 
 FULL = 10_000_000
@@ -45,6 +45,7 @@ BOUND = {
     "shade_node_chain": 2,
     "shade_metric": 1 / 2,
     "shade_criterion": 0.85,
+    "shade_increment": 1 / 2,
 }
 NEEDS_FULL = {
     *(name for name in BOUND if name.startswith(("shade_coef", "shade_horner"))),
@@ -77,6 +78,15 @@ def test_poly_span(form: str, evaluator: int, in_gap: float, out_stall: float) -
     assert result.max_error_ulp <= coefficients + evaluation + 1e-9, result.worst_input
     if not in_gap and not out_stall:
         assert result.throughput >= 0.99
+
+
+@pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.4, 0), (0, 0.4), (0.3, 0.3)])
+def test_pixel_normals(in_gap: float, out_stall: float) -> None:
+    result = check_pixel_normals(50_000, SEED, in_gap, out_stall)
+    assert result.mismatches == 0, result.first_mismatch
+    assert result.max_error_ulp <= BOUND["shade_normalize"]
+    if not in_gap and not out_stall:
+        assert result.throughput >= 0.98
 
 
 def test_midpoint_of_every_cosine() -> None:

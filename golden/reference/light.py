@@ -22,28 +22,35 @@ def unit(vectors: ArrayLike) -> Floats:
     return vectors / np.where(length == 0, 1, length)
 
 
-def diffuse(normal: ArrayLike, light: ArrayLike) -> Floats:
-    """Lambert's N.L, *not* clamped: clamping after the interpolation puts no kink into a polynomial."""
-    return unit(normal) @ unit(light)
+def diffuse(normal: ArrayLike, light: ArrayLike, *, as_given: bool = False) -> Floats:
+    """Lambert's N.L, *not* clamped: clamping after the interpolation puts no kink into a polynomial.
+
+    ``as_given``, here and below: the normal is not normalized, so that the error of its length shows.
+    """
+    return _direction(normal, as_given) @ unit(light)
 
 
-def blinn(normal: ArrayLike, light: ArrayLike, shininess: float) -> Floats:
+def blinn(normal: ArrayLike, light: ArrayLike, shininess: float, *, as_given: bool = False) -> Floats:
     """max(0, N.H)^n, H = (L + V)/|L + V|."""
-    return np.maximum(unit(normal) @ unit(unit(light) + VIEW), 0) ** shininess
+    return np.maximum(_direction(normal, as_given) @ unit(unit(light) + VIEW), 0) ** shininess
 
 
-def phong(normal: ArrayLike, light: ArrayLike, shininess: float) -> Floats:
+def phong(normal: ArrayLike, light: ArrayLike, shininess: float, *, as_given: bool = False) -> Floats:
     """max(0, R.V)^n, R = 2 N (N.L) - L."""
-    normal, light = unit(normal), unit(light)
+    normal, light = _direction(normal, as_given), unit(light)
     return np.maximum(2 * (normal @ light) * (normal @ VIEW) - light @ VIEW, 0) ** shininess
 
 
-def lambert(normal: ArrayLike, light: ArrayLike, shininess: float) -> Floats:
+def lambert(normal: ArrayLike, light: ArrayLike, shininess: float, *, as_given: bool = False) -> Floats:
     """No specular light: 0."""
     return np.zeros(np.shape(normal)[:-1])
 
 
-MODELS: dict[str, Callable[[ArrayLike, ArrayLike, float], Floats]] = {
+def _direction(normal: ArrayLike, as_given: bool) -> Floats:
+    return np.asarray(normal, float) if as_given else unit(normal)
+
+
+MODELS: dict[str, Callable[..., Floats]] = {
     "blinn": blinn,
     "phong": phong,
     "lambert": lambert,
@@ -51,9 +58,12 @@ MODELS: dict[str, Callable[[ArrayLike, ArrayLike, float], Floats]] = {
 """Specular light by the name of its model; diffuse light is Lambert's in all of them."""
 
 
-def light_channels(model: str, normal: ArrayLike, light: ArrayLike, shininess: float) -> Floats:
+def light_channels(
+    model: str, normal: ArrayLike, light: ArrayLike, shininess: float, *, as_given: bool = False
+) -> Floats:
     """(..., 2): diffuse (unclamped) and specular intensity at a normal."""
-    return np.stack([diffuse(normal, light), MODELS[model](normal, light, shininess)], axis=-1)
+    specular = MODELS[model](normal, light, shininess, as_given=as_given)
+    return np.stack([diffuse(normal, light, as_given=as_given), specular], axis=-1)
 
 
 def kappa(model: str, first: ArrayLike, last: ArrayLike, shininess: float) -> Floats:

@@ -70,19 +70,19 @@ module shade_span_walk #(
   end
 
   // ---- the span in work --------------------------------------------------------------------------------------
-  logic busy_q, first_q, last_q;
-  logic [COUNT_W-1:0] left_q;  // pixels behind the one at hand
+  logic load, issue, first, last;
+  shade_walk #(.CREDIT_LOG2(CREDIT_LOG2)) u_walk (
+    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(in_count), .error_i(in_error),
+    .credit_i, .load_o(load), .issue_o(issue), .first_o(first), .last_o(last), .error_o, .error_count_o
+  );
+
   logic [NODES_W-1:0] nodes_q, nodes_next;
   logic [shade_pkg::DEGREE_W-1:0] degree_q;
   logic [T_F:0] t_q;
   logic [3:0] log2_q;
   logic [shade_pkg::TAG_W-1:0] tag_q;
-
-  logic [CREDIT_LOG2:0] credit_q;
-  logic some_credit_q, issue, accept;
-  assign issue              = busy_q && some_credit_q;
-  assign s_axis_span_tready = !busy_q || (issue && last_q);
-  assign accept             = s_axis_span_tvalid && s_axis_span_tready;
+  logic direct;
+  assign direct = degree_q == shade_pkg::DEGREE_W'(shade_pkg::DEGREE_DIRECT);
 
   // direct: the next pixel is the next node of each channel
   for (genvar c = 0; c < shade_pkg::CHANNELS; c++) begin : g_next
@@ -91,54 +91,27 @@ module shade_span_walk #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (accept) begin
+    if (load) begin
       nodes_q  <= s_axis_span_tdata[NODES_W-1:0];
       degree_q <= in_degree;
       tag_q    <= s_axis_span_tdata[shade_pkg::SPAN_TAG_LSB+:shade_pkg::TAG_W];
       log2_q   <= in_log2;
-      first_q  <= 1'b1;
-      last_q   <= in_count == COUNT_W'(1);
-      left_q   <= in_count - COUNT_W'(1);
       t_q      <= '0;
     end else if (issue) begin
-      if (degree_q == shade_pkg::DEGREE_W'(shade_pkg::DEGREE_DIRECT)) nodes_q <= nodes_next;
-      first_q <= 1'b0;
-      last_q  <= left_q == COUNT_W'(1);
-      left_q  <= left_q - COUNT_W'(1);
-      t_q     <= t_q + ((T_F + 1)'(1 << T_F) >> log2_q);
+      if (direct) nodes_q <= nodes_next;
+      t_q <= t_q + ((T_F + 1)'(1 << T_F) >> log2_q);
     end
 
-    // tokens
-    first_o  <= first_q || degree_q == shade_pkg::DEGREE_W'(shade_pkg::DEGREE_DIRECT);
-    last_o   <= last_q;
+    // tokens; a direct pixel is a segment of its own
+    first_o  <= first || direct;
+    last_o   <= last;
     nodes_o  <= nodes_q;
     degree_o <= degree_q;
     t_o      <= t_q;
     log2_o   <= log2_q;
     tag_o    <= tag_q;
-  end
-
-  // ---- control -----------------------------------------------------------------------------------------------
-  logic [CREDIT_LOG2:0] credit_d;
-  assign credit_d = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(issue);
-  always_ff @(posedge clk_i) begin
-    valid_o       <= issue;
-    credit_q      <= credit_d;
-    some_credit_q <= credit_d != '0;
-    if (accept) busy_q <= in_error == '0;
-    else if (issue && last_q) busy_q <= 1'b0;
-    if (accept) begin
-      error_o <= error_o | in_error;
-      if (in_error != '0 && !(&error_count_o)) error_count_o <= error_count_o + 16'd1;
-    end
-    if (rst_i) begin
-      valid_o       <= 1'b0;
-      busy_q        <= 1'b0;
-      credit_q      <= (CREDIT_LOG2 + 1)'(1 << CREDIT_LOG2);
-      some_credit_q <= 1'b1;
-      error_o       <= '0;
-      error_count_o <= '0;
-    end
+    valid_o  <= issue;
+    if (rst_i) valid_o <= 1'b0;
   end
 
   logic unused_bits;

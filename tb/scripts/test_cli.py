@@ -512,6 +512,7 @@ def test_interrupted(polyshade, place, earlier, monkeypatch) -> None:
     assert listing(place) == earlier
 
 
+@pytest.mark.timeout(60, method="thread")  # a run that does not end cannot be interrupted
 def test_a_module_that_stops(polyshade, place, earlier, monkeypatch) -> None:
     """A frame that never ends is told, with the line to run it again; here the consumer never takes a pixel."""
     run = model.Model.run
@@ -652,7 +653,7 @@ def test_process(polyshade, tmp_path: Path) -> None:
 def test_process_with_any_bytes(tmp_path: Path) -> None:
     """Names of files need not be text."""
     out = os.fsencode(tmp_path) + b"/\xff\xfe"
-    done = process(*SMALL, b"--out", out)
+    done = process(*SMALL, b"--out", out, PYTHONIOENCODING="utf-8")  # as strict as in most places
     assert (done.returncode, done.stderr) == (0, "")
     sane(Path(os.fsdecode(out)))
     done = process("render", b"--mesh", b"\xff.obj")

@@ -392,6 +392,7 @@ def test_results_can_be_copied(third: sim.Model, duplicate: Callable) -> None:
 # ---- modules that stop -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.timeout(60, method="thread")  # a run that does not end cannot be interrupted
 def test_a_consumer_that_never_takes(span: sim.Model) -> None:
     """The run ends, though the module offers a pixel all the time."""
     beats, _ = spans()

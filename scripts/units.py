@@ -19,10 +19,9 @@ from tqdm import tqdm
 from golden import contract
 from scripts.sources import BUILD
 from sim.errors import UserError
-from sim.units import FORMS, Case, Result, cases, check_poly_span
+from sim.units import FORMS, Case, Result, cases, check_pixel_normals, check_poly_span
 
 OUT = BUILD / "units.json"
-EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
 ALLOWED = (1, 1_000_000_000)
 
 
@@ -46,17 +45,21 @@ def measure(vectors: int, seed: int) -> tuple[dict[str, dict], list[str]]:
                 total.add(case.check(vectors, seed, bar.update))
             report[name] = row(total, all(case.all_vectors for case in group))
             faults += [total.first_mismatch] * bool(total.mismatches)
-        for evaluator, code in EVALUATORS.items():
-            for form in FORMS:
-                bar.set_description(f"shade_poly_span/{form}")
-                # spans have 12 pixels on average
-                result = check_poly_span(form, code, max(64, min(vectors, 10_000_000) // 12), seed)
-                bar.update(result.vectors)
-                key = (
-                    f"shade_poly_span/{form}" if evaluator == "horner" else f"shade_poly_span[EVALUATOR={code}]/{form}"
-                )
-                report[key] = row(result, False)
-                faults += [result.first_mismatch] * bool(result.mismatches)
+
+        def stream(name: str, result: Result) -> None:
+            bar.set_description(name)
+            bar.update(result.vectors)
+            report[name] = row(result, False)
+            faults.extend([result.first_mismatch] * bool(result.mismatches))
+
+        items = max(64, min(vectors, 10_000_000) // 12)  # spans have 12 pixels, lines 10 normals on average
+        for form in FORMS:
+            stream(f"shade_poly_span/{form}", check_poly_span(form, contract.EVALUATOR_HORNER, items, seed))
+            fdiff = contract.EVALUATOR_FDIFF
+            stream(f"shade_poly_span[EVALUATOR={fdiff}]/{form}", check_poly_span(form, fdiff, items, seed))
+        refined, variants = contract.VARIANT_REFINED, range(contract.VARIANT_V1, contract.VARIANT_V6 + 1)
+        stream("shade_pixel_normals/refined", check_pixel_normals(items, seed, variants=[refined]))
+        stream("shade_pixel_normals/paper", check_pixel_normals(items, seed, variants=variants))
     return report, faults
 
 

@@ -11,7 +11,7 @@ corners and random ones at full width. :meth:`Case.check` runs it through the RT
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -498,7 +498,7 @@ def _stream_result(
 
 
 def check_pixel_normals(
-    lines: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, variant: int | None = None
+    lines: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, variants: Sequence[int] = range(8)
 ) -> Result:
     """Whole lines of normals through ``shade_pixel_normals``: random ends, lengths, variants, thresholds, some faulty.
 
@@ -519,24 +519,24 @@ def check_pixel_normals(
     normals = np.rint(first * scale).astype(np.int64)
     steps = np.rint((last - first) / np.maximum(count - 1, 1)[:, None] * scale).astype(np.int64)
     cosine = np.rint(np.sum(first * last, axis=1) * ONE).astype(np.int64)
-    variants = rng.integers(0, 7, lines, endpoint=True) if variant is None else np.full(lines, variant)
+    variant = rng.choice(variants, lines)
     threshold = np.where(rng.random(lines) < 0.9, k.METRIC_THRESHOLD, rng.integers(-ONE // 8, ONE + ONE // 8, lines))
     tag = rng.integers(0, 1 << k.TAG_W, lines)
 
     model = sim.load("shade_pixel_normals")
     run = model.run(
-        s_axis_line_tdata=normal.pack_lines(normals, steps, count, cosine, tag), variant_i=variants,
+        s_axis_line_tdata=normal.pack_lines(normals, steps, count, cosine, tag), variant_i=variant,
         threshold_i=threshold, in_gap=in_gap, out_stall=out_stall, seed=seed,
     )  # fmt: skip
-    golden, owner = normal.pixel_normals(normals, steps, count, cosine, variants, threshold)
+    golden, owner = normal.pixel_normals(normals, steps, count, cosine, variant, threshold)
     mask = (1 << k.INTENSITY_W) - 1
     data = sum((golden[:, i] & mask) << k.INTENSITY_W * i for i in range(3))
-    errors = normal.line_errors(count, variants, threshold)
+    errors = normal.line_errors(count, variant, threshold)
     dropped = np.count_nonzero((count == 0) | (count > k.PIXELS_MAX))
     result = _stream_result(run, "normal", data, tag, owner, errors, dropped, k.LATENCY_PIXEL_NORMALS, bool(out_stall))
 
     j = np.arange(len(owner)) - np.searchsorted(owner, owner)
-    exact = (j % 2 == 0) | (j == count[owner] - 1) | (variants[owner] == k.VARIANT_EXACT)
+    exact = (j % 2 == 0) | (j == count[owner] - 1) | (variant[owner] == k.VARIANT_EXACT)
     ideal = (normals[owner] + j[:, None] * steps[owner])[exact].astype(Real)
     quantized = np.floor(ideal / (1 << k.STEP_F - k.INTENSITY_F) + Real(0.5))
 

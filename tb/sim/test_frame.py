@@ -245,6 +245,27 @@ def test_no_pixels_at_all(drawn: SimpleNamespace) -> None:
     assert compare(drawn.outputs, (beats[:0], golden[:0], tag[:0], owner[:0]))[1]["mismatches"] == 8
 
 
+def test_normals_are_compared_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wrong bit anywhere in a normal, its tag or its end of line is one mismatch."""
+    settings = frame.Settings(mesh="sphere", path="normals", camera=Camera(size=40))
+    run = sim.Model.run
+    parts = [("tdata", 1 << bit) for bit in (0, 17, 18, 35, 36, 53)] + [("tuser", 1), ("tuser", 1 << 15), ("tlast", 1)]
+    for part, flip in parts:
+
+        def faulty(self: sim.Model, *, name: str = f"m_axis_normal_{part}", flip: int = flip, **inputs) -> sim.Run:
+            result = run(self, **inputs)
+            result.outputs[name][100] ^= flip
+            return result
+
+        monkeypatch.setattr(sim.Model, "run", faulty)
+        report = frame.render(settings).report
+        first = report["first_mismatch"]
+        assert (report["mismatches"], first["pixel"]) == (1, 100)
+        different = int(first["expected"], 16) ^ int(first["actual"], 16)
+        lsb = {"tdata": 0, "tuser": k.NORMAL_DATA_W, "tlast": k.NORMAL_DATA_W + k.TAG_W}[part]
+        assert different == flip << lsb
+
+
 # ---- whole frames ------------------------------------------------------------------------------------------------
 
 

@@ -24,13 +24,14 @@ module shade_fifo #(
 
   localparam int DEPTH = 1 << LOG2;
   logic [WIDTH-1:0] memory[0:DEPTH-1];
-  logic [LOG2:0] write_q, read_q;  // one bit more than an address: equal means empty
+  // equal means empty: of 2^LOG2 words one stands in the output register, so that the memory is never full
+  logic [LOG2-1:0] write_q, read_q;
   logic read;
   assign read = write_q != read_q && (!valid_o || ready_i);
 
   always_ff @(posedge clk_i) begin
-    if (valid_i) memory[write_q[LOG2-1:0]] <= data_i;
-    if (read) data_o <= memory[read_q[LOG2-1:0]];
+    if (valid_i) memory[write_q] <= data_i;
+    if (read) data_o <= memory[read_q];
   end
 
   always_ff @(posedge clk_i) begin

@@ -4,7 +4,7 @@
 // taken together with the last step of the old one, so that steps follow each other without a bubble.
 //
 //   count_i   n, with the item; error_i  its faults: an item with any is dropped and costs one clock, no step
-//   credit_i  gives a credit back; 2^CREDIT_LOG2 are there after reset, a step costs one
+//   credit_i  gives a credit back, for a step 1 clock later; 2^CREDIT_LOG2 are there after reset, a step costs one
 //   error_o   sticky faults; error_count_o  dropped items, saturating
 //
 // No path leads from an input to ready_o, issue_o, first_o or last_o. Latency of a first step: 1 clock behind its item.

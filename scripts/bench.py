@@ -24,6 +24,7 @@ import sim
 from golden import contract, poly
 from golden.reference import light
 from scripts import tools
+from scripts.report import save
 from scripts.sources import BUILD
 from sim import frame
 from sim.scene.mesh import load_mesh
@@ -105,7 +106,7 @@ def main() -> None:
         name: {"value": value, "unit": "pixels/s", "versus": versus[name], "ratio": value / rates[versus[name]]}
         for name, value in rates.items()
     }
-    OUT.write_text(json.dumps(report, indent=2) + "\n")
+    save(OUT, report)
     print(f"{'name':22} {'pixels/s':>12} {'ratio':>10}  versus")
     for name, row in report.items():
         print(f"{name:22} {row['value']:12,.0f} {row['ratio']:10.3g}  {row['versus']}")

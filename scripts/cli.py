@@ -71,8 +71,9 @@ def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, fi
         f"{report['mismatches']} mismatches, NMSE {report['nmse'] or 0:.1e}"
     )
     if report["mismatches"]:
-        first = ", ".join(f"{name} {value}" for name, value in report["first_mismatch"].items())
-        click.echo(f"first mismatch: {first}; again with a waveform: WAVES=1 {rerun()}", err=True)
+        *told, (_, again) = report["first_mismatch"].items()
+        first = ", ".join(f"{name} {value}" for name, value in told)
+        click.echo(f"first mismatch: {first}; again with a waveform: {again}", err=True)
         sys.exit(1)
 
 

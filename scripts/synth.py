@@ -36,6 +36,7 @@ from tqdm import tqdm
 
 from scripts import tools
 from scripts.points import VARIANTS, Point, label
+from scripts.report import save
 from scripts.sources import BUILD, ROOT, modules, sources
 from sim.errors import UserError
 
@@ -250,7 +251,7 @@ def measure(design: Design, family: str, netlist: str) -> dict[str, int | float 
     result: dict[str, int | float | None] = {**synthesize(design, family), "fmax_mhz": None}
     if family == "ecp5":
         result["lut"], result["fmax_mhz"] = place_and_route(kept.parent)
-    _write(kept, {"key": key, "result": result})
+    save(kept, {"key": key, "result": result})
     return result
 
 
@@ -278,7 +279,7 @@ def main(names: list[str] | None = None) -> dict[str, dict]:
         report[name][family] = job.result()
     if names and OUT.exists():
         report = {**json.loads(OUT.read_text()), **report}
-    _write(OUT, report)
+    save(OUT, report)
     print(table(report))
     return report
 
@@ -296,13 +297,6 @@ def table(report: dict[str, dict]) -> str:
         values = (families[family][part] for family, part in columns)
         lines.append(f"{name:<{width}}" + "".join(f"{'-' if value is None else value:>9}" for value in values))
     return "\n".join(lines)
-
-
-def _write(path: Path, content: dict) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(path.name + ".part")
-    temporary.write_text(json.dumps(content, indent=2) + "\n")
-    os.replace(temporary, path)
 
 
 if __name__ == "__main__":

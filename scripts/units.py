@@ -11,12 +11,12 @@ All parameter points of a unit are taken together. ``exhaustive``: no point left
 
 from __future__ import annotations
 
-import json
 import sys
 
 from tqdm import tqdm
 
 from golden import contract
+from scripts.report import save
 from scripts.sources import BUILD
 from sim.errors import UserError
 from sim.units import FORMS, Case, Result, cases, check_pixel_normals, check_poly_span
@@ -70,8 +70,7 @@ def main(vectors: int = 1_000_000, seed: int = 1) -> int:
     if not 0 <= seed < 1 << 32:
         raise UserError(f"--seed: {seed} is out of range, allowed is 0 to {(1 << 32) - 1}")
     report, faults = measure(vectors, seed)
-    OUT.parent.mkdir(parents=True, exist_ok=True)
-    OUT.write_text(json.dumps(report, indent=2) + "\n")
+    save(OUT, report)
     print(f"{'unit':42} {'vectors':>11} {'mismatches':>10} {'ulp':>9} {'ideal':>11} {'latency':>7} {'per clock':>9}")
     for name, r in report.items():
         print(

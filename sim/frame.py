@@ -187,6 +187,8 @@ def draw_poly(spans: Spans, settings: Settings, stage: Callable[[str], None]) ->
         nodes, records.degree, records.count, evaluator=parameters["EVALUATOR"], form=parameters["FORM"]
     )
     pixels, mismatch = _compare(run, beats, golden, tag, owner)
+    if record := mismatch.get("first_mismatch"):
+        record["again"] = model.again(s_axis_span_tdata=beats[record["record"]])
     more = {"evaluator": settings.evaluator, "records": len(records), **mismatch}
     return Drawn(pixels / ONE, run, seconds, evaluations, more)
 
@@ -211,6 +213,9 @@ def draw_normals(spans: Spans, settings: Settings, stage: Callable[[str], None])
     width = contract.INTENSITY_W
     words = sum((golden[:, i] & (1 << width) - 1) << width * i for i in range(3))
     actual, mismatch = _compare_words(run, "normal", beats, words, tag, owner)
+    if record := mismatch.get("first_mismatch"):
+        settings_beside = {"variant_i": code, "threshold_i": threshold}
+        record["again"] = model.again(s_axis_line_tdata=beats[record["record"]], **settings_beside)
     vectors = np.stack([actual << 64 - width * (i + 1) >> 64 - width for i in range(3)], axis=-1) / ONE
     light = reference.light_channels(settings.model, vectors, settings.light, settings.shininess, as_given=True)
     return Drawn(light.clip(0, 1), run, seconds, len(golden), {"variant": settings.variant, **mismatch})

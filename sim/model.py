@@ -181,6 +181,21 @@ class Model:
     def __repr__(self) -> str:
         return f"{self.module}({', '.join(f'{name}={value}' for name, value in self.parameters.items())})"
 
+    def again(self, **inputs: ArrayLike) -> str:
+        """A command to paste at the repository's root that runs one row of inputs with a waveform.
+
+        >>> print(sim.load("shade_third", WIDTH=18).again(x_i=100))
+        python -c 'import sim; print(sim.load("shade_third", waves=True, WIDTH=18).run(x_i=0x64).outputs)'
+        """
+
+        def shown(value: ArrayLike) -> str:
+            parts = np.asarray(value)
+            return f"[{', '.join(map(shown, parts))}]" if parts.ndim else f"{int(parts):#x}"
+
+        point = "".join(f", {name}={value}" for name, value in self.parameters.items())
+        row = ", ".join(f"{name}={shown(value)}" for name, value in inputs.items())
+        return f"python -c 'import sim; print(sim.load(\"{self.module}\", waves=True{point}).run({row}).outputs)'"
+
     def _inputs(self, inputs: dict[str, ArrayLike]) -> tuple[int, list[np.ndarray]]:
         """The number of rows, and the inputs, checked, in the order of the ports and as harness.cpp reads them."""
         ports = self.interface.into.data

@@ -93,13 +93,13 @@ class Case:
             run = model.run(latency=fixed_latency, seed=seed, **inputs)
             result = Result(vectors=rows, latency=self.latency, throughput=rows / (run.clocks - self.latency))
             golden = self.golden(inputs)
-            self._compare(inputs, golden, run, result)
+            self._compare(model, inputs, golden, run, result)
             self._measure(inputs, golden, result)
             total.add(result)
             tick(rows)
         return total
 
-    def _compare(self, inputs: Arrays, expected: Arrays, run: sim.Run, result: Result) -> None:
+    def _compare(self, model: sim.Model, inputs: Arrays, expected: Arrays, run: sim.Run, result: Result) -> None:
         wrong = np.zeros(result.vectors, bool)
         for name, value in expected.items():
             actual = run.outputs[name]
@@ -116,12 +116,12 @@ class Case:
                 f"{name} expected {_hex(value[at])} actual {_hex(run.outputs[name][at])}"
                 for name, value in expected.items()
             )
-            given = ", ".join(f"{name}={_hex(value[at])}" for name, value in inputs.items())
-            parameters = "".join(f", {name}={value}" for name, value in self.parameters.items())
+            row = {name: value[at] for name, value in inputs.items()}
+            given = ", ".join(f"{name}={_hex(value)}" for name, value in row.items())
+            clocks = int(run.given[at] - run.taken[at])
             result.first_mismatch = (
-                f"{self}: vector {at}: {given}: {values}, latency {int(run.given[at] - run.taken[at])} of "
-                f'{self.latency}; again with a waveform: python -c \'import sim; print(sim.load("{self.module}", '
-                f"waves=True{parameters}).run({given}, latency={self.latency}).outputs)'"
+                f"{self}: vector {at}: {given}: {values}, latency {clocks} of {self.latency}; again with a waveform: "
+                + model.again(**row, **({"latency": self.latency} if not model.interface.out.valid else {}))
             )
 
     def _measure(self, inputs: Arrays, golden: Arrays, result: Result) -> None:

@@ -9,8 +9,6 @@ Every measured number comes from the RTL, through ``sim``, or from the golden pa
 
 from __future__ import annotations
 
-import json
-import os
 from dataclasses import asdict
 from pathlib import Path
 
@@ -18,6 +16,7 @@ from tqdm import tqdm
 
 from scripts.papers import p1_arithmetic, p1_face, p1_line
 from scripts.papers.claims import Claim
+from scripts.report import save
 from scripts.sources import BUILD
 
 STEPS = [*p1_arithmetic.STEPS, *p1_line.STEPS, *p1_face.STEPS]
@@ -36,9 +35,7 @@ def main(out: Path = BUILD / "papers.json", *, size: int = 512) -> list[dict]:
             bar.set_description(step.__name__)
             claims += step(figures, size)
     rows = [asdict(claim) for claim in claims]
-    scratch = out.with_name(f".{out.name}.{os.getpid()}")
-    scratch.write_text(json.dumps(rows, indent=2) + "\n")
-    os.replace(scratch, out)
+    save(out, rows)
     for claim in claims:
         print(claim)
     print(f"{out}: {sum(claim.holds for claim in claims)} of {len(claims)} claims hold; figures in {figures}")

@@ -564,8 +564,12 @@ def test_a_mismatch(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert first["pixel"] == 70
     assert int(first["expected"], 16) ^ int(first["actual"], 16) == 0x21 << contract.PIXEL_W
     told, line = err.rstrip("\n").split("; again with a waveform: ")
+    assert line == first.pop("again")
     assert told == "first mismatch: " + ", ".join(f"{name} {value}" for name, value in first.items())
-    assert shlex.split(line) == ["WAVES=1", "polyshade", *SMALL, "--out", "it's here"]
+    _, option, code = shlex.split(line)
+    assert option == "-c"
+    assert f"{int(first['input'], 16) & 0xFFFFFFFF:#x}" in code
+    compile(code, "again", "exec")
 
     # the input that is told makes the pixel that is told
     beat = [int(first["input"], 16) >> 32 * word & 0xFFFFFFFF for word in range(contract.SPAN_DATA_W // 32)]

@@ -13,6 +13,9 @@ from golden.reference import poly as reference
 from scripts import papers, svg, waves
 from scripts.papers.claims import check, nmse
 from scripts.papers.p1_arithmetic import signed_digits
+from scripts.papers.p2_criterion import FORMS, decide, edge_error, edges_of, flat_eta
+from scripts.papers.p4_face import gains, middles
+from sim.scene.mesh import load_mesh
 
 SIZE = 128
 KEYS = ["paper", "claim", "claimed", "measured", "holds"]
@@ -35,7 +38,8 @@ def row(rows: list[dict], *words: str) -> dict:
 def test_rows(report):
     out, rows = report
     assert json.loads(out.read_text()) == rows
-    assert len(rows) > 50
+    assert len(rows) > 150
+    assert {each["paper"] for each in rows} == {"P1", "P2", "P4"}
     assert len({each["claim"] for each in rows}) == len(rows)
     for each in rows:
         assert list(each)[: len(KEYS)] == KEYS
@@ -64,7 +68,15 @@ def test_figures(report):
         (("times up to",), 24),
         (("more convenient",), 18),
         (("clocks a value", "five steps"), 6),
-        (("differ from the golden model",), 0),
+        (("pixels of 14 frames", "differ from the golden model"), 0),
+        (("pixels of 36 frames", "differ from the golden model"), 0),
+        (("V1 at 0.9 is V3",), 0),
+        (("least d1a",), (58589 + 3 * 459) / 65536),  # 0.894 + 3 * 0.007
+        (("InvC2 of two equal normals",), 65668 / 131072),
+        (("refined InvC of two equal normals",), 0),
+        (("refined criterion: |eta| of a flat triangle",), 0),
+        (("SLERP",), 4),
+        (("bisection needs two roots",), 1),
     ],
 )
 def test_known_values(report, words, measured):
@@ -80,6 +92,56 @@ def test_constant_is_27_percent_too_bright(report):
 def test_what_cannot_hold_is_reported(report):
     assert not row(report[1], "as printed", "diffuse")["holds"]
     assert row(report[1], "adaptive method, refined", "worst")["holds"]
+
+
+@pytest.mark.parametrize(
+    ("words", "measured"),
+    [
+        (("Fig. 2: largest relative error of diffuse light",), 0.49958),
+        (("Chebyshev nodes, degree 1: largest absolute error",), 7.43e-3),
+        (("truncated series, degree 2: largest absolute error",), 5.99e-4),
+        (("d1a from d1",), 5.66),
+        (("d2 from cos(x/2)",), 0.692),
+        (("largest relative error of InvC1",), 3.41),
+        (("largest relative error of InvC2",), 0.581),
+        (("bigger part of the interval",), 97),
+        (("Barrera",), 11.6),
+        (("Table 1, V3: largest error",), 13.4),
+        (("Table 1, V6: largest error",), 10.1),
+    ],
+)
+def test_values_of_the_design(report, words, measured):
+    """Numbers that double precision gave elsewhere, to their last digit."""
+    assert row(report[1], *words)["measured"] == pytest.approx(measured, rel=3e-3)
+
+
+def test_refined_criterion_decides_like_the_exact_one(report):
+    """P2's polynomials do not: they are not 0 for a flat triangle."""
+    bars = [each for each in report[1] if "decides otherwise" in each["claim"]]
+    assert len(bars) == 2 * 4 * len(FORMS)
+    assert all(each["holds"] for each in bars if each["kind"] == "repair")
+    assert not any(each["holds"] for each in bars if "linear" in each["claim"])
+
+
+def test_criterion_of_edges():
+    sphere = load_mesh("sphere")
+    edges = edges_of(sphere)
+    assert len(edges) == len(sphere.faces) * 3 // 2
+    assert edges.tolist() == sorted(edges.tolist())
+    for shares in (decide(sphere, edges), decide(sphere, sphere.faces)):
+        assert not shares["refined"].any()
+    for form, degree, _ in FORMS.values():
+        flat = 3 * edge_error(form, degree)[-1]  # of c = 1, where the exact share is 0
+        assert flat_eta(form, degree) == pytest.approx(flat, abs=2**-18)
+
+
+def test_productivity_by_hand():
+    """100 points in 10 lines have 45 even ones. Clocks: a point 5 * 4 + 6 * 4 + 14 + 16, its mean 3 * 4."""
+    assert middles(np.arange(1, 20, 2)) == 45
+    assert middles([0, 1, 2, 3, 4]) == 2
+    before = 100 * 74 + 10 * (3 * 4 + 3 * 14)
+    after = 55 * 74 + 45 * 12 + 10 * (4 * 4 + 5 * 4) + 3 * 4 + 3 * 14
+    assert gains("V3") == pytest.approx((before / after, 600 / (330 + 50), 230 / 113))
 
 
 def test_relations():

@@ -85,7 +85,7 @@ def shortening(folder: Path, size: int) -> Iterator[Claim]:
     with figures.drawing(folder / "p2_light.png", 10, 4, 1, 2) as (left, right):
         left.plot(x, 100 * reference.shortfall(np.cos(x)), color=figures.EXACT)
         left.plot([0, ANGLE, ANGLE], [0.5, 0.5, 0], ":", color=figures.PAPER)
-        left.text(ANGLE - 0.01, 0.9, "P2: 0.5 % at 0.2 rad", color=figures.PAPER, fontsize=8.5, ha="right")
+        left.text(0.01, 1.4, "P2: 0.5 % at 0.2 rad", color=figures.PAPER, fontsize=8.5)
         left.set(xlabel="angle between the normals, rad", ylabel="diffuse light too dark by, %")
         left.set(title="Fig. 2: diffuse error", xlim=(0, 1), ylim=(0, None))
         share = 100 * reference.specular_shortfall(np.cos(x[:, None]), n)

@@ -138,7 +138,7 @@ def metrics(folder: Path, size: int) -> Iterator[Claim]:
         right.plot(degrees, 100 * d2_error[SHOWN], color=figures.PAPER, label="P4's d2, golden model")
         right.plot(degrees, 100 * np.abs(half[SHOWN]), color=figures.REFINED, label="refined, golden model")
         right.axhline(0.7, color=figures.PAPER, ls=":", lw=1.2)
-        right.set(title="Fig. 4: cos(x/2)", ylabel="relative error, %", yscale="log", ylim=(1e-4, 2))
+        right.set(title="Fig. 4: cos(x/2)", ylabel="relative error, %", yscale="log", ylim=(1e-4, 6))
         right.legend(loc="upper left")
         for axes in (left, right):
             axes.set(xlabel="angle x, degrees")

@@ -279,8 +279,9 @@ def methods(folder: Path, size: int) -> Iterator[Claim]:
             seen = error > 1e-9  # those that are exact in float64 stand below the frame
             left.plot(degrees[seen], error[seen], style, color=colour)
             right.plot(degrees, integers[name], style, color=colour, lw=1.2, label=name)
-        for (name, error), style in zip(ours.items(), ("-", "-", ":"), strict=True):
-            right.plot(degrees, error.clip(1e-6), style, color=figures.REFINED, lw=3, alpha=0.75, label=name)
+        looks = (("-", figures.DEGREES[1]), ("-", figures.REFINED), (":", figures.REFINED))
+        for (name, error), (style, colour) in zip(ours.items(), looks, strict=True):
+            right.plot(degrees, error.clip(1e-6), style, color=colour, lw=3, alpha=0.75, label=name)
         left.set(title="Float64", ylabel="largest error of the length of a middle", ylim=(3e-7, 0.3))
         right.set(title="16 fraction bits, and our units")
         for axes in (left, right):

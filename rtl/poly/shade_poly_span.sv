@@ -9,7 +9,9 @@
 //   error_o, error_count_o  see shade_span_walk; a faulty span is dropped and costs one clock
 //
 // Unclamped inside, so that a terminator puts no kink into a polynomial; clamped to [0, 1 - 2^-16] at the end.
-// EVALUATOR_HORNER: six multipliers a channel. EVALUATOR_FDIFF: none, spans of at most 2^LOG2_MAX pixels (error: 1/2 ulp).
+// EVALUATOR_HORNER: six multipliers a channel. EVALUATOR_FDIFF: none. Spans of at most 2^LOG2_MAX pixels.
+// Refined, a pixel is off the polynomial through its nodes by the evaluator's 11/16 or 1/2 ulp and 2/(9 sqrt 3) = 0.13 ulp
+// of the coefficients: 3 divides 3 A + 3 C, so their roundings are opposite and leave (t - t^3)/3 at most.
 // The pipeline never stalls: a pixel is started only with a credit for its place in the FIFO; no combinational path
 // leads from an input to an output. Latency span -> first pixel LATENCY_POLY_SPAN_HORNER / _FDIFF.
 // Example: degree 1, 3 pixels, nodes 0 and 1/2 (diffuse), 1/4 and 1/4 (specular) -> (0, 1/4), (1/4, 1/4), (1/2, 1/4).

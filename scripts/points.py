@@ -57,7 +57,7 @@ REFUSED: dict[str, list[Point]] = {
     "shade_mul": [{"A_W": 36}, {"B_W": 19}, {"STAGES": 1}],
     "shade_clamp": [{"WIDTH": 17}, {"F": 0}],
     "shade_square": [{"WIDTH": 1}, {"WIDTH": 19}],
-    "shade_weigh": [{"WIDTH": 1}, {"OUT_F": 34}, {"KX": 87381, "KY": 87381}],
+    "shade_weigh": [{"WIDTH": 1}, {"OUT_F": 34}, {"KX": 87381, "KY": 87381}, {"KX": 1 << 19}, {"KZ": -(1 << 19)}],
     "shade_third": [{"WIDTH": 3}, {"WIDTH": 29}, {"FORM": 2}],
     "shade_coef_a": [{"WIDTH": 2}, {"WIDTH": 21}, {"NODES": 2}, {"FORM": 2}],
     "shade_coef_b": [{"WIDTH": 2}, {"WIDTH": 21}, {"NODES": 2}],

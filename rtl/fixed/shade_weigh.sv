@@ -7,7 +7,7 @@
 // Every constant is taken in non-adjacent form: digits 1 and -1, no two of them side by side, so a third of its bits as a
 // rule. Each digit is a shifted input; a digit -1 is the inverted input (-x = ~x + 1), whose 1 joins K0 and the half ulp
 // of the rounding. All of them, at most 16, are added in a tree of four levels.
-// OUT_W must hold the result; the adders count modulo 2^OUT_W, so that no inner sum can overflow.
+// OUT_W must hold the result; the adders count modulo 2^OUT_W, so that no inner sum can overflow. |KX|, |KY|, |KZ| < 2^19.
 // Error at most 1/2 ulp. Latency LATENCY_WEIGH = 4 clocks, one result a clock.
 // Example (F = 18, OUT_F = 16): K0 = 3/4, KX = 1/4, KY = KZ = 0, x = 1/2 -> w = 7/8.
 module shade_weigh #(
@@ -41,6 +41,10 @@ module shade_weigh #(
   localparam logic [3*DIGITS-1:0] MINUS = {digits(KZ, 1'b1), digits(KY, 1'b1), digits(KX, 1'b1)};
   localparam logic [3*DIGITS-1:0] ANY = {digits(KZ, 1'b0), digits(KY, 1'b0), digits(KX, 1'b0)} | MINUS;
 
+  function automatic bit wide(input int k);
+    wide = k >= (1 << (DIGITS - 1)) || k <= -(1 << (DIGITS - 1));
+  endfunction
+
   // where the digit of a leaf stands in ANY; 3 DIGITS: there are not so many
   function automatic int digit_of(input int leaf);
     int left;
@@ -54,6 +58,9 @@ module shade_weigh #(
 
   if (WIDTH < 2 || F < 1 || OUT_W < 2 || DROP < 1 || digit_of(LEAVES) != 3 * DIGITS) begin : g_check
     $error("shade_weigh: WIDTH and OUT_W from 2, F from 1, OUT_F below F + 16; at most 15 digits in KX, KY and KZ");
+  end
+  if (wide(KX) || wide(KY) || wide(KZ)) begin : g_check_weights
+    $error("shade_weigh: KX, KY and KZ must be above -2^19 and below 2^19");
   end
 
   // leaf 0: K0, the half ulp, and 1 for every inverted input, at the weight of its digit

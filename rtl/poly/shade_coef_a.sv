@@ -10,7 +10,7 @@
 // Of a degree below 3, A is 0.
 //
 //   i1_i .. i4_i  sd.ffff          WIDTH bits, S1.16 by default
-//   a_o      sdddddddd.ffff        WIDTH + 7 bits; |A| <= 48 max|I|, overflow is impossible
+//   a_o      sdddddddd.ffff        WIDTH + 7 bits; |A| <= 48 max|I| (paper: 48.2), overflow is impossible
 //
 // Latency LATENCY_COEF = 9 clocks, one set of nodes a clock. Source: P1, section IV.
 // Example (left, refined): the nodes of t^3, I = 0, 1/64, 1/8, 1 -> A = 1.

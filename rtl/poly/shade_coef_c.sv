@@ -12,7 +12,7 @@
 // to C; degrees 2 and 1 are exact in both forms.
 //
 //   i1_i .. i4_i  sd.ffff          WIDTH bits, S1.16 by default
-//   c_o      sdddddddd.ffff        WIDTH + 7 bits; |C| <= 30 max|I|, overflow is impossible
+//   c_o      sdddddddd.ffff        WIDTH + 7 bits; |C| <= 30 max|I| (paper: 30.2), overflow is impossible
 //
 // Latency LATENCY_COEF = 9 clocks, one set of nodes a clock. Source: P1, section IV.
 // Example (left, refined): the nodes of t, I = 0, 1/4, 1/2, 1 -> C = 1.

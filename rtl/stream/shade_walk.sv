@@ -3,7 +3,8 @@
 // load_o: an item is taken in this clock; issue_o: a step is made, first_o and last_o frame the item's. A new item is
 // taken together with the last step of the old one, so that steps follow each other without a bubble.
 //
-//   count_i   n, with the item; error_i  its faults: an item with any is dropped and costs one clock, no step
+//   count_i   n >= 1, with the item; a caller must give n = 0 a fault
+//   error_i   the item's faults: with any it is dropped and costs one clock, no step
 //   credit_i  gives a credit back, for a step 1 clock later; 2^CREDIT_LOG2 are there after reset, a step costs one
 //   error_o   sticky faults; error_count_o  dropped items, saturating
 //

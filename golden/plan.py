@@ -1,4 +1,4 @@
-"""The planner: cuts a span into records that ``shade_poly_span`` draws, by one number (mathematics: the kappa ladder).
+"""The planner: cuts a span into records that ``shade_poly_span`` draws, by one number: the kappa ladder.
 
 Along an arc whose end normals have the dot product c, the error of interpolating cos^n depends on
 

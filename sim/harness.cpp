@@ -1,13 +1,15 @@
 // Drives a Verilated module from arrays: one row of inputs a transfer, one row of outputs a transfer, clock by clock.
 //
 // Included behind a generated part (sim/model.py) that defines
-//   DUT, IN_PORTS, OUT_PORTS, STATUS_PORTS   the module's class and its numbers of ports
-//   tick_in, tick_out, drive, collect, ...   access to the ports by row
-// The generated part knows the names, this file the protocol:
+//   DUT, CLOCKED, OUT_VALID, OUT_PORTS, STATUS_PORTS   the module's class and what it has
+//   set_clock, set_reset, set_in_valid, set_out_ready  drive a port, if it is there
+//   in_ready, out_valid                                read one; true where there is none
+//   drive, collect, read_status                        a row of inputs, of outputs, the status
+// and WAVES. The generated part knows the names, this file the protocol:
 //
 //   CLOCKED = false   combinational: a row is evaluated at once
-//   IN_VALID/READY    the input transfers when valid and ready (without ready: when valid)
-//   OUT_VALID/READY   likewise; without OUT_VALID a row leaves `latency` clocks after it entered
+//   input             transfers when it is offered and in_ready
+//   output            transfers when valid and ready; without OUT_VALID a row leaves `latency` clocks after it entered
 
 #include <cstdint>
 #include <cstdio>

@@ -40,7 +40,7 @@ class Channel:
 
 @dataclass(frozen=True)
 class Interface:
-    """The roles of a module's ports, told by their names (architecture: ``valid_i``, ``s_axis_*_tvalid``, ...)."""
+    """The roles of a module's ports, told by their names: ``valid_i``, ``s_axis_*_tvalid``, ..."""
 
     clock: bool
     reset: bool
@@ -54,8 +54,7 @@ def interface(ports: list[Port]) -> Interface:
 
     A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel, and settings beside it change
     with its rows; otherwise all inputs but clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there.
-    Outputs likewise with
-    ``m_axis_<name>_*``, whose other outputs are status, or ``valid_o`` and ``ready_i``.
+    Outputs likewise with ``m_axis_<name>_*``, whose other outputs are status, or ``valid_o`` and ``ready_i``.
     """
     names = {port.name for port in ports}
     handshakes = {"clk_i", "rst_i", "valid_i", "ready_i", "valid_o", "ready_o"}

@@ -124,7 +124,7 @@ def test_every_constant_reaches_the_rtl() -> None:
 
 
 def test_formats_fit() -> None:
-    """Widths follow from the bounds that the formulas have (mathematics, 1.1 to 1.4)."""
+    """Widths follow from the bounds that the formulas have."""
     largest = 1 << k.INTENSITY_W - 1
     assert 76 * largest < 1 << k.COEF_W - 1
     assert (48 + 76 + 30 + 1) * largest < 1 << k.VALUE_W - 1

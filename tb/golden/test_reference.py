@@ -87,7 +87,7 @@ def test_half_the_arc_has_a_quarter_of_kappa() -> None:
 
 
 def test_thirds() -> None:
-    """43/128; 21845/65536 with three adders, and every further one doubles the bits (mathematics, 1.5)."""
+    """43/128; 21845/65536 with three adders, and every further one doubles the bits."""
     assert poly.third_paper(128) == 43
     assert poly.third_paper(3) - 1 == pytest.approx(0.0078125)
     assert poly.third_log(65536, 3) == 21845

@@ -157,7 +157,7 @@ def test_ways_to_shade(polyshade, place: Path, form: str, evaluator: str, model:
     }  # fmt: skip
     assert (report["nmse_specular"] is None) == (model == "lambert")
     worst = max(report["nmse_diffuse"], report["nmse_specular"] or 0)
-    # the paper's division by three is 0.78 % off in numbers that nearly cancel (mathematics, 1.5)
+    # the paper's division by three is 0.78 % off in numbers that nearly cancel
     assert worst > 1e-4 if form == "paper" else worst < 2e-5
 
 

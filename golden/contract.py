@@ -44,16 +44,15 @@ RSQRT_D_F = 23  # d is S-6.23 in [-1/64, 1/64): 18 bits
 
 # ---- normals ---------------------------------------------------------------------------------------------------
 DOT_W = 21  # S4.16, a dot product: at most 3 * 2 * 2 = 12
-INVC_F = 17  # U0.17, what the sum of two normals is multiplied by
+INVC_F = 18  # U0.18, what the sum of two normals is multiplied by
 SQUARE_F = 18  # fraction bits that are kept of a squared cosine
 ETA_W = 20  # S1.18, criterion of a triangle and its threshold
 ETA_F = 18
 CONSTANT_F = 16  # fraction bits of the following constants
-INVC_0, INVC_C, INVC_UU = 40768, -8000, 4240  # 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
-INVC_W, HALF_W = 2048, -1024  # w/32, -w/64 with w = max(0, u - 1/2)
+INVC_0, INVC_C, INVC_UU, INVC_UUUU = 40960, -8192, 3390, 1988  # 1/2 + u/8 + 0.0517 u^2 + 0.0303 u^4, u = 1 - c
 INVC1_0, INVC1_C = 44761, -12517  # 0.683 - 0.191 c
 INVC2_0, INVC2_C, INVC2_CC = 46072, -19661, 6423  # 0.703 - 0.3 c + 0.098 c^2
-HALF_UU = -2304  # 1 - u/4 - 9 u^2/256 = 0.75 + 0.25 c - 9 u^2/256
+HALF_UU, HALF_UUUU = -2176, -640  # 1 - u/4 - 17 u^2/512 - 5 u^4/512, and 1 - u/4 = 0.75 + 0.25 c
 D2_NEAR_0, D2_NEAR_C = 49152, 16384  # 0.75 + 0.25 c
 D2_FAR_0, D2_FAR_C = 46662, 19988  # 0.712 + 0.305 c
 D2_LIMIT = 46340  # floor(2^16 cos(pi/4)): up to here the second
@@ -116,7 +115,7 @@ LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squ
 LATENCY_WEIGH = 4  # a tree of adders
 LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders
 LATENCY_HALF = 1 + LATENCY_WEIGH  # the choice of a straight line
-LATENCY_INVC = 1 + LATENCY_MUL + LATENCY_WEIGH  # 1 - c, its square
+LATENCY_INVC = 1 + 2 * LATENCY_MUL + LATENCY_WEIGH  # u = 1 - c, u^2, u^4
 LATENCY_SCALE3 = LATENCY_MUL + 1  # products, rounding
 LATENCY_SCALE3_FOLDED = 3 + LATENCY_SCALE3  # the operands' register, two more turns of the multiplier
 LATENCY_MIDPOINT = LATENCY_INVC + LATENCY_SCALE3

@@ -41,15 +41,16 @@ def dot3(ax: ArrayLike, ay, az, bx, by, bz) -> Int:
 def half(c: ArrayLike, form: int = k.FORM_REFINED) -> Int:
     """cos(psi/2), S1.16, from c = cos psi in [0, 1] (``shade_half``).
 
-    Refined: 1 - u/4 - 9 u^2/256 - w/64 with u = 1 - c, w = max(0, u - 1/2). Paper: P4's d2, 0.25 c + 0.75 where
-    c > cos(pi/4), else 0.305 c + 0.712. Both rounded once, to nearest, ties up; u^2 is cut to 18 fraction bits before.
+    Refined: 1 - u/4 - 17 u^2/512 - 5 u^4/512 with u = 1 - c. Paper: P4's d2, 0.25 c + 0.75 where c > cos(pi/4), else
+    0.305 c + 0.712. Both rounded once, to nearest, ties up; powers are cut to 18 fraction bits before (u^2 to 16 before
+    it is squared).
 
     >>> int(half(65536)), int(half(32768)), int(half(32768, k.FORM_PAPER))  # cos 30 degrees: 56756
-    (65536, 56768, 56656)
+    (65536, 56760, 56656)
     """
     (c,) = integers(c)
     if form == k.FORM_REFINED:
-        return _anchored(k.D2_NEAR_0, k.D2_NEAR_C, k.HALF_UU, k.HALF_W, c, k.INTENSITY_F)
+        return _anchored(k.D2_NEAR_0, k.D2_NEAR_C, k.HALF_UU, k.HALF_UUUU, c, k.INTENSITY_F)
     near, far = _weigh(k.D2_NEAR_0, k.D2_NEAR_C, c), _weigh(k.D2_FAR_0, k.D2_FAR_C, c)
     return np.where(c > k.D2_LIMIT, near, far)
 
@@ -57,17 +58,16 @@ def half(c: ArrayLike, form: int = k.FORM_REFINED) -> Int:
 def invc(c: ArrayLike, form: int = k.FORM_REFINED, degree: int = 2) -> tuple[Int, Int, Int]:
     """(InvC, cos(psi/2), 1 where c was clamped to [0, 1]) of c = cos psi, S1.16 (``shade_invc``).
 
-    InvC = 1/sqrt(2 (1 + c)), U0.17. Refined: 1/2 + 125 u/1024 + 265 u^2/4096 + w/32 with u = 1 - c and
-    w = max(0, u - 1/2), within 3.2e-4 for c >= 1/2, 0.7 % below. Paper: 0.683 - 0.191 c or 0.703 - 0.3 c + 0.098 c^2.
-    Cosine of the half angle, S1.16: ``half``. Squares are cut to 18 fraction bits, the results rounded once, to
-    nearest, ties up.
+    InvC = 1/sqrt(2 (1 + c)), U0.18. Refined: 1/2 + u/8 + 3390 u^2/2^16 + 1988 u^4/2^16 with u = 1 - c, within 1.6e-4
+    (relative). Paper: 0.683 - 0.191 c or 0.703 - 0.3 c + 0.098 c^2. Cosine of the half angle, S1.16: ``half``. Powers
+    are cut to 18 fraction bits (u^2 to 16 before it is squared), the results rounded once, to nearest, ties up.
 
     >>> [int(v) for v in invc(65536)], [int(v) for v in invc(65536, k.FORM_PAPER)]  # 1/2 exactly, 0.501
-    ([65536, 65536, 0], [65668, 65536, 0])
+    ([131072, 65536, 0], [131336, 65536, 0])
     """
     c, clamped = clamp(c)
     if form == k.FORM_REFINED:
-        value = _anchored(k.INVC_0, k.INVC_C, k.INVC_UU, k.INVC_W, c, k.INVC_F)
+        value = _anchored(k.INVC_0, k.INVC_C, k.INVC_UU, k.INVC_UUUU, c, k.INVC_F)
     elif degree == 2:
         value = _weigh(k.INVC2_0, k.INVC2_C, c, k.INVC2_CC, c**2, out_f=k.INVC_F)
     else:
@@ -75,25 +75,26 @@ def invc(c: ArrayLike, form: int = k.FORM_REFINED, degree: int = 2) -> tuple[Int
     return value, half(c, form), clamped
 
 
-def _anchored(k0: int, k1: int, k2: int, k3: int, c: Int, out_f: int) -> Int:
-    """K0 + K1 c + K2 u^2 + K3 w with u = 1 - c, w = max(0, u - 1/2)."""
-    return _weigh(k0, k1, c, k2, (ONE - c) ** 2, k3, np.maximum(ONE // 2 - c, 0), out_f)
+def _anchored(k0: int, k1: int, k2: int, k4: int, c: Int, out_f: int) -> Int:
+    """K0 + K1 c + K2 u^2 + K4 u^4 with u = 1 - c."""
+    square = (ONE - c) ** 2
+    return _weigh(k0, k1, c, k2, square, k4, (square >> k.INTENSITY_F) ** 2, out_f)
 
 
 def _weigh(
-    k0: int, k1: int, c: Int, k2: int = 0, square: ArrayLike = 0, k3: int = 0, w: ArrayLike = 0,
+    k0: int, k1: int, c: Int, k2: int = 0, square: ArrayLike = 0, k4: int = 0, fourth: ArrayLike = 0,
     out_f: int = k.INTENSITY_F,
 ) -> Int:  # fmt: skip
-    """K0 + K1 c + K2 square + K3 w: c and w with 16 fraction bits, a square with 32, of which 18 are kept."""
-    c, square, w = integers(c, square, w)
+    """K0 + K1 c + K2 square + K4 fourth: c with 16 fraction bits, the powers with 32, of which 18 are kept."""
+    c, square, fourth = integers(c, square, fourth)
     align, cut = k.SQUARE_F - k.INTENSITY_F, 2 * k.INTENSITY_F - k.SQUARE_F
-    return weigh(k0, k1, c << align, k2, square >> cut, k3, w << align, f=k.SQUARE_F, out_f=out_f)
+    return weigh(k0, k1, c << align, k2, square >> cut, k4, fourth >> cut, f=k.SQUARE_F, out_f=out_f)
 
 
 def scale3(x: ArrayLike, y, z, s) -> tuple[Int, Int, Int]:
-    """v s, S1.16, for s U0.17 in [0, 1), each component rounded to nearest, ties up (``shade_scale3``).
+    """v s, S1.16, for s U0.18 in [0, 1), each component rounded to nearest, ties up (``shade_scale3``).
 
-    >>> [int(v) for v in scale3(65536, -65536, 32768, 65536)]  # s = 1/2
+    >>> [int(v) for v in scale3(65536, -65536, 32768, 131072)]  # s = 1/2
     [32768, -32768, 16384]
     """
     x, y, z, s = integers(x, y, z, s)
@@ -101,11 +102,11 @@ def scale3(x: ArrayLike, y, z, s) -> tuple[Int, Int, Int]:
 
 
 def bisect(ax: ArrayLike, ay, az, bx, by, bz, s) -> tuple[Int, Int, Int]:
-    """(a + b) s for s = InvC, U0.17; a + b saturates to S1.16 (``shade_bisect``).
+    """(a + b) s for s = InvC, U0.18; a + b saturates to S1.16 (``shade_bisect``).
 
     +2, which alone of the sums of unit normals is too large, becomes 2 - 2^-16; its half is 1 again.
 
-    >>> [int(v) for v in bisect(65536, 0, 0, 65536, 0, 0, 65536)]
+    >>> [int(v) for v in bisect(65536, 0, 0, 65536, 0, 0, 131072)]
     [65536, 0, 0]
     """
     ax, ay, az, bx, by, bz, s = integers(ax, ay, az, bx, by, bz, s)
@@ -116,11 +117,10 @@ def bisect(ax: ArrayLike, ay, az, bx, by, bz, s) -> tuple[Int, Int, Int]:
 def midpoint(ax: ArrayLike, ay, az, bx, by, bz, c, form: int = k.FORM_REFINED, degree: int = 2) -> tuple[Int, ...]:
     """(x, y, z, cos(psi/2), clamped): the unit normal in the middle of two whose cosine is c (``shade_midpoint``).
 
-    n = (a + b) InvC(c). Refined: its length is 1 within 2 ulp for equal unit normals, within 3.5e-4 for c >= 1/2, 0.7 %
-    below.
+    n = (a + b) InvC(c). Refined: its length is 1 within 2 ulp for equal unit normals, within 1.7e-4 for others.
 
     >>> [int(v) for v in midpoint(0, 32768, 56756, 0, -32768, 56756, 32768)]  # 60 degrees, the true one (0, 0, 65536)
-    [0, 0, 65520, 56768, 0]
+    [0, 0, 65534, 56760, 0]
     """
     s, h, clamped = invc(c, form, degree)
     return *bisect(ax, ay, az, bx, by, bz, s), h, clamped
@@ -129,11 +129,11 @@ def midpoint(ax: ArrayLike, ay, az, bx, by, bz, c, form: int = k.FORM_REFINED, d
 def node_chain(ax: ArrayLike, ay, az, bx, by, bz, c, form: int = k.FORM_REFINED, degree: int = 2) -> tuple[Int, ...]:
     """The normals at 0, 1/4, 1/2, 3/4, 1 of an arc, 15 components, and 1 where c was clamped (``shade_node_chain``).
 
-    Two midpoint steps in a row: the cosine of the half angle is the c of the second. Refined: within 5e-4 of the exact
-    points of the arc for c >= 1/2.
+    Two midpoint steps in a row: the cosine of the half angle is the c of the second. Refined: within 2.5e-4 of the
+    exact points of the arc for c >= 1/2.
 
     >>> [int(v) for v in node_chain(65536, 0, 0, 32768, 0, 56756, 32768)[3:9]]  # 60 degrees: at 15 and at 30
-    [63277, 0, 16953, 56742, 0, 32760]
+    [63307, 0, 16963, 56754, 0, 32767]
     """
     *a, c = integers(ax, ay, az, bx, by, bz, c)
     a, b = a[:3], a[3:]

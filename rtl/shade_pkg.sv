@@ -45,22 +45,22 @@ package shade_pkg;
 
   // normals
   localparam int DOT_W = 21;  // S4.16, a dot product: at most 3 * 2 * 2 = 12
-  localparam int INVC_F = 17;  // U0.17, what the sum of two normals is multiplied by
+  localparam int INVC_F = 18;  // U0.18, what the sum of two normals is multiplied by
   localparam int SQUARE_F = 18;  // fraction bits that are kept of a squared cosine
   localparam int ETA_W = 20;  // S1.18, criterion of a triangle and its threshold
   localparam int ETA_F = 18;
   localparam int CONSTANT_F = 16;  // fraction bits of the following constants
-  localparam int INVC_0 = 40768;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
-  localparam int INVC_C = -8000;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
-  localparam int INVC_UU = 4240;  // 1/2 + 125 u/1024 + 265 u^2/4096 with u = 1 - c
-  localparam int INVC_W = 2048;  // w/32, -w/64 with w = max(0, u - 1/2)
-  localparam int HALF_W = -1024;  // w/32, -w/64 with w = max(0, u - 1/2)
+  localparam int INVC_0 = 40960;  // 1/2 + u/8 + 0.0517 u^2 + 0.0303 u^4, u = 1 - c
+  localparam int INVC_C = -8192;  // 1/2 + u/8 + 0.0517 u^2 + 0.0303 u^4, u = 1 - c
+  localparam int INVC_UU = 3390;  // 1/2 + u/8 + 0.0517 u^2 + 0.0303 u^4, u = 1 - c
+  localparam int INVC_UUUU = 1988;  // 1/2 + u/8 + 0.0517 u^2 + 0.0303 u^4, u = 1 - c
   localparam int INVC1_0 = 44761;  // 0.683 - 0.191 c
   localparam int INVC1_C = -12517;  // 0.683 - 0.191 c
   localparam int INVC2_0 = 46072;  // 0.703 - 0.3 c + 0.098 c^2
   localparam int INVC2_C = -19661;  // 0.703 - 0.3 c + 0.098 c^2
   localparam int INVC2_CC = 6423;  // 0.703 - 0.3 c + 0.098 c^2
-  localparam int HALF_UU = -2304;  // 1 - u/4 - 9 u^2/256 = 0.75 + 0.25 c - 9 u^2/256
+  localparam int HALF_UU = -2176;  // 1 - u/4 - 17 u^2/512 - 5 u^4/512, and 1 - u/4 = 0.75 + 0.25 c
+  localparam int HALF_UUUU = -640;  // 1 - u/4 - 17 u^2/512 - 5 u^4/512, and 1 - u/4 = 0.75 + 0.25 c
   localparam int D2_NEAR_0 = 49152;  // 0.75 + 0.25 c
   localparam int D2_NEAR_C = 16384;  // 0.75 + 0.25 c
   localparam int D2_FAR_0 = 46662;  // 0.712 + 0.305 c
@@ -132,16 +132,16 @@ package shade_pkg;
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
   localparam int LATENCY_HALF = 5;  // the choice of a straight line
-  localparam int LATENCY_INVC = 7;  // 1 - c, its square
+  localparam int LATENCY_INVC = 9;  // u = 1 - c, u^2, u^4
   localparam int LATENCY_SCALE3 = 3;  // products, rounding
   localparam int LATENCY_SCALE3_FOLDED = 6;  // the operands' register, two more turns of the multiplier
-  localparam int LATENCY_MIDPOINT = 10;
-  localparam int LATENCY_NODE_CHAIN = 17;
+  localparam int LATENCY_MIDPOINT = 12;
+  localparam int LATENCY_NODE_CHAIN = 21;
   localparam int LATENCY_METRIC = 7;  // clamps, decisions
   localparam int LATENCY_CRITERION = 12;  // u, u^2, u^4, sums of the edges, decision
   localparam int LATENCY_INCREMENT = 2;  // sum, rounding
-  localparam int LATENCY_MIDDLE = 15;  // cosine, factor, choice, scaling
-  localparam int LATENCY_PIXEL_NORMALS = 41;
+  localparam int LATENCY_MIDDLE = 17;  // cosine, factor, choice, scaling
+  localparam int LATENCY_PIXEL_NORMALS = 43;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 

@@ -612,7 +612,7 @@ def _roots(form: str) -> Iterator[Case]:
 
 # constants of the normals' formulas in fractions of 2^16 (golden.contract), by the form and degree of the unit
 INVC = {
-    ("refined", 2): (k.INVC_0, k.INVC_C, k.INVC_UU, k.INVC_W),
+    ("refined", 2): (k.INVC_0, k.INVC_C, k.INVC_UU, k.INVC_UUUU),
     ("paper", 2): (k.INVC2_0, k.INVC2_C, k.INVC2_CC, 0),
     ("paper", 1): (k.INVC1_0, k.INVC1_C, 0, 0),
 }
@@ -733,11 +733,10 @@ def _invc(form: str, degree: int, c: np.ndarray) -> tuple[np.ndarray, np.ndarray
     """InvC and cos(psi/2) of a unit as numbers, from c as a number in [0, 1], exactly by its formula."""
     c = np.asarray(c, Real)
     square = (1 - c if form == "refined" else c) ** 2
-    w = np.maximum(Real(0.5) - c, 0)
-    k0, k1, k2, k3 = INVC[form, degree]
-    value = (k0 + k1 * c + k2 * square + k3 * w) / ONE
+    k0, k1, k2, k4 = INVC[form, degree]
+    value = (k0 + k1 * c + k2 * square + k4 * square**2) / ONE
     if form == "refined":
-        return value, (k.D2_NEAR_0 + k.D2_NEAR_C * c + k.HALF_UU * square + k.HALF_W * w) / ONE
+        return value, (k.D2_NEAR_0 + k.D2_NEAR_C * c + k.HALF_UU * square + k.HALF_UUUU * square**2) / ONE
     far = c * ONE <= k.D2_LIMIT
     return value, np.where(far, k.D2_FAR_0 + k.D2_FAR_C * c, k.D2_NEAR_0 + k.D2_NEAR_C * c) / ONE
 
@@ -772,16 +771,17 @@ def _cosines(form: str) -> Iterator[Case]:
             lambda i, value=value: value(i, _true_invc), None, everything, k.LATENCY_INVC, more_f={"invc_o": k.INVC_F},
         )  # fmt: skip
 
-    def with_square() -> Iterator[Arrays]:
-        """Every c; u^2 comes a clock later."""
+    def with_powers() -> Iterator[Arrays]:
+        """Every c; u^2 and u^4 come a clock later."""
         c = np.append(np.arange(ONE + 1), ONE)
-        square = (ONE - c) ** 2 >> 2 * k.INTENSITY_F - k.SQUARE_F
-        yield {"c_i": c, "uu_i": np.r_[0, square[:-1]]}
+        cut, square = 2 * k.INTENSITY_F - k.SQUARE_F, (ONE - c) ** 2
+        powers = {"uu_i": square >> cut, "uuuu_i": (square >> k.INTENSITY_F) ** 2 >> cut}
+        yield {"c_i": c} | {name: np.r_[0, power[:-1]] for name, power in powers.items()}
 
     yield Case(
         "shade_half", form, {"FORM": FORMS[form]}, lambda i: {"half_o": normal.half(i["c_i"], FORMS[form])},
         lambda i: {"half_o": _invc(form, 2, _cosine(i["c_i"]))[1] * ONE},
-        lambda i: {"half_o": _true_invc(_cosine(i["c_i"]))[1] * ONE}, None, with_square, k.LATENCY_HALF,
+        lambda i: {"half_o": _true_invc(_cosine(i["c_i"]))[1] * ONE}, None, with_powers, k.LATENCY_HALF,
     )  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 //
 //   ax_i .. bz_i   sd.ffff          S1.16
 //   Na + Nb       sdd.ffff          saturated to S1.16; of unit normals only +2 is met, and (2 - 2^-16)/2 rounds to 1
-//   invc_i         0.ffff f         U0.17, taken WAIT clocks after the normals
+//   invc_i         0.ffff ff        U0.18, taken WAIT clocks after the normals
 //   x_o, y_o, z_o  sd.ffff          S1.16, to nearest, ties up: error at most 1/2 ulp, 1 ulp where the sum is +2
 //
 // Three 18 x 18 multipliers. Latency WAIT + LATENCY_SCALE3 clocks (4 by default), one vector a clock.

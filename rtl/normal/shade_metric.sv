@@ -65,7 +65,7 @@ module shade_metric (
     .WIDTH(WIDTH), .F(F), .K0(shade_pkg::D1_0), .KX(shade_pkg::D1_C), .KY(shade_pkg::D1_M)
   ) u_d1a (.clk_i, .x_i(c), .y_i(m), .z_i(none), .w_o(d1a_q6));
   shade_half #(.FORM(shade_pkg::FORM_PAPER)) u_d2 (
-    .clk_i, .c_i(c_q1), .uu_i(none[shade_pkg::SQUARE_F:0]), .half_o(d2_q6)
+    .clk_i, .c_i(c_q1), .uu_i(none[shade_pkg::SQUARE_F:0]), .uuuu_i(none[shade_pkg::SQUARE_F:0]), .half_o(d2_q6)
   );
 
   shade_delay #(.WIDTH(F + 1), .DEPTH(LATENCY - 2)) u_wait (.clk_i, .d_i(threshold_q1), .q_o(threshold_q6));

@@ -4,10 +4,11 @@
 //   c_i                          S1.16     cosine of their angle, clamped to [0, 1]; clamped_o tells, with the result
 //   half_o                       S1.16     cos(psi/2): the cosine of either to n
 //
-// FORM and DEGREE: see shade_invc. Refined: the length of n is 1 within 2 ulp for equal unit normals, within 3.5e-4 for
-// c >= 1/2, 0.7 % below; paper: 0.2 % wrong for equal ones (DEGREE 2), 1.6 % (DEGREE 1).
-// Four 18 x 18 multipliers (three in DEGREE 1). Latency LATENCY_MIDPOINT = 10 clocks, one vector a clock.
-// Source: P4, section 2. Example: Na = (0, 0.5, 0.866), Nb = (0, -0.5, 0.866), c = 0.5 -> n = (0, 0, 0.99976), refined.
+// FORM and DEGREE: see shade_invc. Refined: the length of n is 1 within 2 ulp for equal unit normals, within 1.7e-4 for
+// others; paper: 0.2 % wrong for equal ones (DEGREE 2), 1.6 % (DEGREE 1).
+// Five 18 x 18 multipliers (four in FORM_PAPER, three in DEGREE 1). Latency LATENCY_MIDPOINT = 12 clocks, one vector a
+// clock. Source: P4, section 2.
+// Example: Na = (0, 0.5, 0.866), Nb = (0, -0.5, 0.866), c = 0.5 -> n = (0, 0, 0.99997), refined.
 module shade_midpoint #(
   parameter int FORM   = shade_pkg::FORM_REFINED,
   parameter int DEGREE = 2

@@ -174,7 +174,7 @@ module shade_pixel_normals (
   );
 
   // d1a belongs to the line, d2 to the pixel
-  logic needs_d1, needs_d1_f, needs_d2_f, odd_f, m_error, threshold_error, metric_valid;
+  logic needs_d1, needs_d1_f, needs_d2, needs_d2_f, odd_f, m_error, threshold_error, metric_valid;
   logic signed [W-1:0] threshold_f;
   logic [VARIANT_W-1:0] variant_f, variant_t;
   shade_metric u_metric_line (
@@ -185,7 +185,7 @@ module shade_pixel_normals (
   shade_delay #(.WIDTH(VARIANT_W), .DEPTH(shade_pkg::LATENCY_METRIC)) u_variant_t (
     .clk_i, .d_i(variant_q2), .q_o(variant_t)
   );
-  shade_delay #(.WIDTH(1), .DEPTH(TO_UNIT + TO_FACTOR - shade_pkg::LATENCY_METRIC)) u_needs (
+  shade_delay #(.WIDTH(1), .DEPTH(TO_UNIT + TO_FACTOR - shade_pkg::LATENCY_METRIC)) u_needs_d1 (
     .clk_i, .d_i(needs_d1), .q_o(needs_d1_f)
   );
   shade_delay #(.WIDTH(W), .DEPTH(TO_UNIT + 1 + shade_pkg::LATENCY_DOT3)) u_threshold (
@@ -193,8 +193,11 @@ module shade_pixel_normals (
   );
   shade_metric u_metric_pixel (
     .clk_i, .rst_i, .valid_i(1'b0), .c_i(cosine), .m_i(COUNT_W'(shade_pkg::METRIC_M_MIN)), .threshold_i(threshold_f),
-    .valid_o(), .d1a_o(), .d2_o(), .needs_d1_o(), .needs_d2_o(needs_d2_f), .clamped_o(), .m_error_o(),
+    .valid_o(), .d1a_o(), .d2_o(), .needs_d1_o(), .needs_d2_o(needs_d2), .clamped_o(), .m_error_o(),
     .threshold_error_o()
+  );
+  shade_delay #(.WIDTH(1), .DEPTH(shade_pkg::LATENCY_INVC - shade_pkg::LATENCY_METRIC)) u_needs_d2 (
+    .clk_i, .d_i(needs_d2), .q_o(needs_d2_f)
   );
   shade_delay #(.WIDTH(1 + VARIANT_W), .DEPTH(TO_FACTOR - 1)) u_token_f (
     .clk_i, .d_i({odd_m, variant_m}), .q_o({odd_f, variant_f})

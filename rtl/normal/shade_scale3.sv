@@ -1,10 +1,11 @@
 // shade_scale3: n = v s, a vector times a number below 1.
 //
 //   x_i, y_i, z_i  sd.ffff               S1.16
-//   s_i             0.ffff f             U0.17
-//   products       sd.ffff ffff ffff     33 fraction bits, exact
+//   s_i             0.ffff ff            U0.18
+//   products       sd.ffff ffff ffff     34 fraction bits, exact
 //   x_o, y_o, z_o  sd.ffff               S1.16, to nearest, ties up: error at most 1/2 ulp; |n| <= |v|: no overflow
 //
+// s has 18 bits without a sign, one more than a signed multiplier takes: v s = v (s - 1/2) + v/2.
 // FOLD = 1: three 18 x 18 multipliers, a vector a clock, latency LATENCY_SCALE3 = 3 clocks, ready_o is 1.
 // FOLD = 3: one multiplier, the components in turn: a vector in 3 clocks, latency LATENCY_SCALE3_FOLDED = 6 clocks;
 //           ready_o tells that this clock takes one; the result holds for the clock of valid_o.
@@ -33,20 +34,28 @@ module shade_scale3 #(
   localparam int F = shade_pkg::INVC_F;
   localparam int LANES = 3 / FOLD;
 
-  // a lane: product (2 clocks), rounding
+  // a lane: product with s - 1/2 (2 clocks), sum with v/2; the half ulp of the rounding makes it (v + 1)/2
   logic [LANES*W-1:0] v, n_q;
-  logic signed [F:0] s;
+  logic [F-1:0] s;
+  logic signed [F-1:0] offset;  // s - 1/2, S-1.18
+  assign offset = {~s[F-1], s[F-2:0]};
   for (genvar lane = 0; lane < LANES; lane++) begin : g_lane
-    logic signed [W+F:0] product;
-    logic signed [W-1:0] rounded;
-    shade_mul #(.A_W(W), .B_W(F + 1)) u_mul (.clk_i, .a_i(v[lane*W+:W]), .b_i(s), .p_o(product));
-    shade_round #(.WIDTH(W + F + 1), .DROP(F), .OUT_W(W)) u_round (.x_i(product), .y_o(rounded));
-    always_ff @(posedge clk_i) n_q[lane*W+:W] <= rounded;
+    localparam int LSB = lane * W;
+    logic signed [W+F-1:0] product_q2;
+    logic signed [W+F:0] sum;
+    logic signed [W:0] next_q1, next_q2;
+    shade_mul #(.A_W(W), .B_W(F)) u_mul (.clk_i, .a_i(v[LSB+:W]), .b_i(offset), .p_o(product_q2));
+    assign sum = (W + F + 1)'(product_q2) + ((W + F + 1)'(next_q2) <<< (F - 1));
+    always_ff @(posedge clk_i) begin
+      next_q1     <= (W + 1)'($signed(v[LSB+:W])) + (W + 1)'(1);
+      next_q2     <= next_q1;
+      n_q[LSB+:W] <= W'(sum >>> F);
+    end
   end
 
   if (FOLD == 1) begin : g_parallel
     assign v               = {z_i, y_i, x_i};
-    assign s               = {1'b0, s_i};
+    assign s               = s_i;
     assign {z_o, y_o, x_o} = n_q;
     assign ready_o         = 1'b1;
     shade_valid #(.DEPTH(shade_pkg::LATENCY_SCALE3)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
@@ -68,7 +77,7 @@ module shade_scale3 #(
       if (take) s_q <= s_i;
     end
     assign v = v_q[W-1:0];
-    assign s = {1'b0, s_q};
+    assign s = s_q;
 
     logic [2*W-1:0] before_q;  // x and y wait for z
     always_ff @(posedge clk_i) before_q <= {n_q, before_q[W+:W]};

@@ -189,7 +189,8 @@ def draw_poly(spans: Spans, settings: Settings, stage: Callable[[str], None]) ->
     pixels, mismatch = _compare(run, beats, golden, tag, owner)
     if record := mismatch.get("first_mismatch"):
         record["again"] = model.again(s_axis_span_tdata=beats[record["record"]])
-    more = {"evaluator": settings.evaluator, "records": len(records), **mismatch}
+    degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
+    more = {"evaluator": settings.evaluator, "degree": degree, "records": len(records), **mismatch}
     return Drawn(pixels / ONE, run, seconds, evaluations, more)
 
 
@@ -218,7 +219,9 @@ def draw_normals(spans: Spans, settings: Settings, stage: Callable[[str], None])
         record["again"] = model.again(s_axis_line_tdata=beats[record["record"]], **settings_beside)
     vectors = np.stack([actual << 64 - width * (i + 1) >> 64 - width for i in range(3)], axis=-1) / ONE
     light = reference.light_channels(settings.model, vectors, settings.light, settings.shininess, as_given=True)
-    return Drawn(light.clip(0, 1), run, seconds, len(golden), {"variant": settings.variant, **mismatch})
+    form = "paper" if settings.variant.startswith("V") else "refined"
+    more = {"form": form, "variant": settings.variant, "threshold": settings.threshold, **mismatch}
+    return Drawn(light.clip(0, 1), run, seconds, len(golden), more)
 
 
 def render(settings: Settings) -> Frame:
@@ -247,13 +250,21 @@ def render(settings: Settings) -> Frame:
         exact = light.clip(0, 1)
 
     pixels, cycles = spans.pixels, drawn.run.clocks
+    camera = settings.camera
     report = {
         "mesh": settings.mesh,
+        "subdivide": settings.subdivide,
         "size": size,
+        "projection": camera.projection,
+        "yaw": camera.yaw,
+        "pitch": camera.pitch,
+        "zoom": camera.zoom,
+        "field_of_view": camera.field_of_view,
         "form": settings.form,
         "path": settings.path,
         "model": settings.model,
         "shininess": settings.shininess,
+        "light": " ".join(f"{part:g}" for part in settings.light),
         "triangles": len(mesh.faces),
         "repairs": mesh.repairs,
         "spans": len(spans),

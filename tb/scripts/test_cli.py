@@ -40,8 +40,11 @@ KEYS = [
     "light_evaluations_per_pixel", "nmse", "nmse_diffuse", "nmse_specular", "psnr_db", "max_error",
     "simulated_pixels_per_second", "wall_seconds", "versions",
 ]  # fmt: skip
-MORE_KEYS = ["shininess", "repairs", "visible_pixels", "light_evaluations"]
-KEYS_OF_PATH = {"poly": ["evaluator", "records"], "normals": ["variant"]}
+MORE_KEYS = [
+    "subdivide", "projection", "yaw", "pitch", "zoom", "field_of_view", "shininess", "light", "repairs",
+    "visible_pixels", "light_evaluations",
+]  # fmt: skip
+KEYS_OF_PATH = {"poly": ["evaluator", "degree", "records"], "normals": ["variant", "threshold"]}
 SMALL = ["render", "--mesh", "sphere", "--size", "32"]
 
 

@@ -170,6 +170,11 @@ def increment(first: ArrayLike, line: ArrayLike, n: ArrayLike, g: ArrayLike, l: 
     >>> increment([1, 0, 0], [0, 0, 0], one, eighth, 0).tolist()
     [65536, 73728, 81920]
     """
+    return round(increment_sum(first, line, n, g, l), k.STEP_F - k.INTENSITY_F)
+
+
+def increment_sum(first: ArrayLike, line: ArrayLike, n: ArrayLike, g: ArrayLike, l: ArrayLike) -> Int:  # noqa: E741
+    """P of ``increment`` before it is rounded, S2.29."""
     first, line, n, g, l = integers(first, line, n, g, l)  # noqa: E741
     first, line = first.astype(bool), line.astype(bool)
     row = np.arange(len(first))
@@ -178,7 +183,7 @@ def increment(first: ArrayLike, line: ArrayLike, n: ArrayLike, g: ArrayLike, l: 
     lines = np.cumsum(np.where(line & ~first, l, 0))
     pixels = np.cumsum(np.where(first | line, 0, g))
     position = n[triangle] + (lines - lines[triangle]) + (pixels - pixels[start])
-    return round(_wrap(position, k.STEP_W), k.STEP_F - k.INTENSITY_F)
+    return _wrap(position, k.STEP_W)
 
 
 def _wrap(value: Int, width: int) -> Int:

@@ -921,21 +921,9 @@ def _increment(form: str) -> Iterator[Case]:
         }
 
     def exact(i: Arrays) -> Arrays:
-        """The recurrence itself, a row at a time, on the three components."""
-        n, g, step = (np.stack([i[f"{c}{kind}_i"] for c in "xyz"], axis=1) for kind in "ngl")
-        first, line = i["first_i"].astype(bool), i["line_i"].astype(bool)
-        pixel, start = n[0], n[0]
-        out = np.empty(n.shape, np.int64)
-        for row in range(len(n)):
-            if first[row]:
-                pixel = start = n[row]
-            elif line[row]:
-                pixel = start = start + step[row]
-            else:
-                pixel = pixel + g[row]
-            out[row] = pixel
         ulp = 1 << k.STEP_F - k.INTENSITY_F
-        return {f"{c}_o": out[:, at].astype(Real) / ulp for at, c in enumerate("xyz")}
+        sums = (normal.increment_sum(i["first_i"], i["line_i"], *(i[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz")
+        return {f"{c}_o": value.astype(Real) / ulp for c, value in zip("xyz", sums, strict=True)}
 
     yield Case("shade_increment", form, {}, golden, exact, exact, vectors, None, k.LATENCY_INCREMENT)
 

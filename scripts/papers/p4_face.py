@@ -265,7 +265,7 @@ def worst_middles(variant: str) -> float:
 def shade_nodes(scene: View, records: plan.Records, form: int | None) -> dict:
     """Errors of a plan's pixels out of the RTL, their nodes' normals in S1.16.
 
-    Inner nodes from ``node_chain`` in a form, or normalized exactly (None) like the ends and the pixels lit directly.
+    Inner nodes from ``shade_node_chain`` in a form, or normalized exactly (None) like the ends and pixels lit directly.
     """
     spans, settings = scene.spans, scene.settings
 
@@ -277,7 +277,9 @@ def shade_nodes(scene: View, records: plan.Records, form: int | None) -> dict:
     vectors = at(records.nodes)
     if form is not None:
         first, last = at(records.start[:, None] + [0, 1] * (1 << records.log2[:, None])).transpose(1, 2, 0)
-        *components, _ = normal.node_chain(*first, *last, normal.dot3(*first, *last), form)
+        ends = dict(zip(("ax_i", "ay_i", "az_i", "bx_i", "by_i", "bz_i"), (*first, *last), strict=True))
+        chain = sim.load("shade_node_chain", FORM=form).run(**ends, c_i=normal.dot3(*first, *last))
+        components = [chain.outputs[f"n{node}{axis}_o"] for node in range(5) for axis in "xyz"]
         chain = np.stack(components, axis=-1).reshape(-1, 5, 3)
         inner = np.take_along_axis(chain, plan.QUARTERS[records.degree][..., None], axis=1)
         vectors = np.where((records.degree == k.DEGREE_DIRECT)[:, None, None], vectors, inner)

@@ -28,6 +28,28 @@ async def triangles(bench: Bench, gap: float) -> None:
 
 
 @checked()
+async def triangle(bench: Bench) -> None:
+    """All lines of a triangle share its increment: 60 lines of 25 pixels stay within 1 ulp of the plane."""
+    height, width = 60, 25
+    corner = bench.rng.uniform(-0.5, 0.5, 3)
+    across, down = bench.rng.uniform(-0.5, 0.5, (2, 3)) / np.array([[width], [height]])
+    y, x = (part.ravel() for part in np.mgrid[:height, :width])
+    scale = 1 << k.STEP_F
+    inputs = {"first_i": (x + y == 0).astype(int), "line_i": ((x == 0) & (y > 0)).astype(int)}
+    for c, parts in zip("xyz", zip(corner, across, down, strict=True), strict=True):
+        inputs |= {
+            f"{c}{kind}_i": np.full(x.size, round(part * scale)) for kind, part in zip("ngl", parts, strict=True)
+        }
+    outputs = {}
+    for c, begin, right, below in zip("xyz", corner, across, down, strict=True):
+        steps = (inputs[f"{c}{kind}_i"] for kind in "ngl")
+        outputs[f"{c}_o"] = increment(inputs["first_i"], inputs["line_i"], *steps)
+        plane = (begin + x * right + y * below) * (1 << k.INTENSITY_F)
+        bench.equal(np.abs(outputs[f"{c}_o"] - plane).max() < 1, True, f"{c} on the plane within 1 ulp")
+    await bench.pipeline(inputs, outputs, k.LATENCY_INCREMENT)
+
+
+@checked()
 async def longest(bench: Bench) -> None:
     """After 4096 increments, each rounded to S2.29, the normal is right to 1 ulp of S1.16."""
     rows = k.PIXELS_MAX

@@ -8,6 +8,7 @@ from math import cos, pi, radians, sqrt
 import numpy as np
 import pytest
 
+from golden import contract as k
 from golden import normal as golden
 from golden import plan
 from golden.reference import normal as reference
@@ -151,7 +152,7 @@ def test_slerp_and_bisection_walk_the_arc() -> None:
 @pytest.mark.parametrize(("degree", "factor"), [(1, reference.invc1), (2, reference.invc2)])
 def test_integer_factors_are_the_papers(degree: int, factor) -> None:
     c = np.arange(ONE + 1)
-    assert np.abs(golden.invc(c, 0, degree)[0] / (1 << 17) - factor(c / ONE)).max() < 2**-16
+    assert np.abs(golden.invc(c, 0, degree)[0] / (1 << k.INVC_F) - factor(c / ONE)).max() < 2**-16
 
 
 class Traced:

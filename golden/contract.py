@@ -64,6 +64,26 @@ ETA_U, ETA_UU, ETA_UUUU = 16384, 2240, 576  # u/4 + 35 u^2/1024 + 9 u^4/1024
 ETA1_0, ETA1_C = 18708, -19053  # 0.28546133 - 0.29073021 c
 ETA2_0, ETA2_C, ETA2_CC = 19152, -22362, 3239  # 0.29222919 - 0.34122087 c + 0.04942337 c^2
 
+# ---- light -----------------------------------------------------------------------------------------------------
+MODEL_LAMBERT = 0  # diffuse light alone
+MODEL_PHONG = 1  # max(0, R.V)^n
+MODEL_BLINN = 2  # max(0, N.H)^n
+MODEL_SCHLICK = 3  # c / (n - n c + c), c = N.H
+MODEL_COOK_TORRANCE = 4  # F G D / (pi (N.L) (N.V))
+MODEL_WARD = 5  # D / (4 pi m^2 sqrt((N.L) (N.V)))
+MODEL_W = 3
+VERSINE_F = 20  # x = 1 - c of two unit vectors, U2.20 in [0, 2]
+VERSINE_W = 22
+LOBE_K1_F = 20  # k1 of the shifted x, U1.20 in [0, 2)
+LOBE_K1_W = 21
+LOBE_K2_F = 17  # k2 of the shifted x, S0.17
+LOBE_K2_W = 18
+LOBE_X_F = 16  # the shifted x and xmax, U1.16
+LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 7
+LOBE_F = 22  # 1 - base and its powers, U1.22
+GAIN_F = 16  # mantissa of the gain, U1.16 in [1, 2), or 0
+GAIN_EXP_W = 6  # exponent of the gain, -32 .. 31
+
 # ---- spans -----------------------------------------------------------------------------------------------------
 CHANNELS = 2  # diffuse, specular
 NODE_COUNT = 4

@@ -81,6 +81,26 @@ package shade_pkg;
   localparam int ETA2_C = -22362;  // 0.29222919 - 0.34122087 c + 0.04942337 c^2
   localparam int ETA2_CC = 3239;  // 0.29222919 - 0.34122087 c + 0.04942337 c^2
 
+  // light
+  localparam int MODEL_LAMBERT = 0;  // diffuse light alone
+  localparam int MODEL_PHONG = 1;  // max(0, R.V)^n
+  localparam int MODEL_BLINN = 2;  // max(0, N.H)^n
+  localparam int MODEL_SCHLICK = 3;  // c / (n - n c + c), c = N.H
+  localparam int MODEL_COOK_TORRANCE = 4;  // F G D / (pi (N.L) (N.V))
+  localparam int MODEL_WARD = 5;  // D / (4 pi m^2 sqrt((N.L) (N.V)))
+  localparam int MODEL_W = 3;
+  localparam int VERSINE_F = 20;  // x = 1 - c of two unit vectors, U2.20 in [0, 2]
+  localparam int VERSINE_W = 22;
+  localparam int LOBE_K1_F = 20;  // k1 of the shifted x, U1.20 in [0, 2)
+  localparam int LOBE_K1_W = 21;
+  localparam int LOBE_K2_F = 17;  // k2 of the shifted x, S0.17
+  localparam int LOBE_K2_W = 18;
+  localparam int LOBE_X_F = 16;  // the shifted x and xmax, U1.16
+  localparam int LOBE_SHIFT_W = 3;  // x is shifted left by 0 .. 7
+  localparam int LOBE_F = 22;  // 1 - base and its powers, U1.22
+  localparam int GAIN_F = 16;  // mantissa of the gain, U1.16 in [1, 2), or 0
+  localparam int GAIN_EXP_W = 6;  // exponent of the gain, -32 .. 31
+
   // spans
   localparam int CHANNELS = 2;  // diffuse, specular
   localparam int NODE_COUNT = 4;

@@ -1,6 +1,6 @@
 """Every unit against its golden model: all vectors of reduced widths, millions at full width; and its error bound.
 
-The vectors, the golden twin and the exact value of each formula stand in ``sim/units.py``.
+The vectors, the golden twin and the exact value of each formula stand in ``sim/units``.
 """
 
 import numpy as np

@@ -1,0 +1,128 @@
+"""Round, saturate, multiply, delay, a third, the weighted sum, the reciprocal square root."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import numpy as np
+
+from golden import contract as k
+from golden import fixed
+from sim.units.case import FORMS, Arrays, Case, Real, every, in_forms, mixed, shortened, signed_range
+
+
+def _steps(form: str) -> Iterator[Case]:
+    """The building blocks: round, saturate, multiply."""
+    if form != "refined":
+        return
+    for width, drop in ((20, 7), (26, 9), (2, 1)):
+        ranges = {"x_i": signed_range(width)}
+        yield Case(
+            "shade_round", form, {"WIDTH": width, "DROP": drop}, lambda i, d=drop: {"y_o": fixed.round(i["x_i"], d)},
+            lambda i, d=drop: {"y_o": np.ldexp(i["x_i"].astype(Real), -d)},
+            lambda i, d=drop: {"y_o": np.ldexp(i["x_i"].astype(Real), -d)},
+            mixed(ranges) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
+        )  # fmt: skip
+    for width, out_w in ((20, 12), (k.VALUE_W, k.PIXEL_W)):
+        ranges = {"x_i": signed_range(width)}
+        clamp = lambda i, o=out_w: {"y_o": fixed.saturate(i["x_i"], o)}  # noqa: E731
+        yield Case(
+            "shade_saturate", form, {"WIDTH": width, "OUT_W": out_w}, clamp, clamp, clamp,
+            mixed(ranges, 1 << out_w) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
+        )  # fmt: skip
+    clamp = lambda i: dict(zip(("y_o", "clamped_o"), fixed.clamp(i["x_i"]), strict=True))  # noqa: E731
+    yield Case("shade_clamp", form, {}, clamp, clamp, clamp, None, every({"x_i": signed_range(k.INTENSITY_W)}), 0)
+    for width in (k.INTENSITY_W, 9):
+        square = lambda i: {"y_o": fixed.square(i["x_i"])}  # noqa: E731
+        yield Case(
+            "shade_square", form, {"WIDTH": width}, square, square, square, None, every({"x_i": signed_range(width)}),
+            k.LATENCY_MUL, unit_f=0,
+        )  # fmt: skip
+    for a_w, b_w, stages in ((30, 18, 2), (18, 18, 2), (35, 18, 0), (10, 10, 2), (20, 2, 2)):
+        ranges = {"a_i": signed_range(a_w), "b_i": signed_range(b_w)}
+        product = lambda i: {"p_o": fixed.mul(i["a_i"], i["b_i"])}  # noqa: E731
+        small = a_w + b_w <= 22
+        yield Case(
+            "shade_mul", form, {"A_W": a_w, "B_W": b_w, "STAGES": stages}, product, product, product,
+            None if small else mixed(ranges), every(ranges) if small else None, stages, unit_f=0,
+        )  # fmt: skip
+
+
+def _delay(form: str) -> Iterator[Case]:
+    if form != "refined":
+        return
+    for parameters, width in (({"WIDTH": 20, "DEPTH": 0}, 20), ({"WIDTH": 12, "DEPTH": 3}, 12)):
+        same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
+        yield Case(
+            "shade_delay", form, parameters, same, same, same, None, every({"d_i": (0, (1 << width) - 1)}),
+            parameters["DEPTH"], unit_f=0,
+        )  # fmt: skip
+
+
+def _third(form: str) -> Iterator[Case]:
+    def exact(inputs: Arrays) -> Arrays:
+        x = inputs["x_i"].astype(Real)
+        return {"y_o": x / 3 if form == "refined" else x * 43 / 128}
+
+    for width in (20, 18, 12, 4, 26):
+        ranges = {"x_i": signed_range(width)}
+        yield Case(
+            "shade_third", form, {"WIDTH": width, "FORM": FORMS[form]},
+            lambda i: {"y_o": fixed.third(i["x_i"], FORMS[form])}, exact, lambda i: {"y_o": i["x_i"].astype(Real) / 3},
+            mixed(ranges) if width > 20 else None, every(ranges) if width <= 20 else None, k.LATENCY_THIRD,
+        )  # fmt: skip
+
+
+def _weigh(form: str) -> Iterator[Case]:
+    if form != "refined":
+        return
+    for width, f, out_w, out_f, weights in (
+        (20, k.SQUARE_F, 26, k.SQUARE_F, (k.INVC2_0, k.INVC2_C, k.INVC2_CC, 1)),
+        (6, 4, 20, 16, (k.D1_0, k.ETA2_C, k.ETA2_CC, -1)),
+        (6, 4, 6, 2, (-65536, 65535, 0, -21845)),
+    ):
+        k0, *by_input = weights
+
+        def golden(i: Arrays, f=f, out_f=out_f, k0=k0, by_input=by_input) -> Arrays:
+            terms = itertools.chain(*zip(by_input, (i["x_i"], i["y_i"], i["z_i"]), strict=True))
+            return {"w_o": fixed.weigh(k0, *terms, f=f, out_f=out_f)}
+
+        def exact(i: Arrays, f=f, out_f=out_f, k0=k0, by_input=by_input) -> Arrays:
+            value = sum(w * i[f"{n}_i"].astype(Real) for w, n in zip(by_input, "xyz", strict=True)) / (1 << f) + k0
+            return {"w_o": value * (1 << out_f) / (1 << k.CONSTANT_F)}
+
+        ranges = {f"{n}_i": signed_range(width) for n in "xyz"}
+        parameters = {"WIDTH": width, "F": f, "OUT_W": out_w, "OUT_F": out_f}
+        yield Case(
+            "shade_weigh", form, parameters | dict(zip(("K0", "KX", "KY", "KZ"), weights, strict=True)), golden, exact,
+            exact, mixed(ranges) if width > 6 else None, None if width > 6 else every(ranges), k.LATENCY_WEIGH,
+            unit_f=out_f,
+        )  # fmt: skip
+
+
+def _root(form: str) -> Iterator[Case]:
+    """Reciprocal square root: arguments of every length, down to one unit."""
+    if form != "refined":
+        return
+
+    def rsqrt(i: Arrays) -> Arrays:
+        y, e = fixed.rsqrt(i["z_i"])
+        return {"y_o": y, "e_o": e, "zero_o": (i["z_i"] == 0).astype(np.int64)}
+
+    def root(i: Arrays) -> Arrays:
+        golden = rsqrt(i)
+        z = np.maximum(i["z_i"], 1).astype(Real)
+        exact = np.ldexp(1 / np.sqrt(z), golden["e_o"] + k.RSQRT_F)
+        return golden | {"y_o": np.where(i["z_i"] == 0, 0, exact)}
+
+    argument = {"z_i": (0, (1 << k.RSQRT_W) - 1)}
+    yield Case(
+        "shade_rsqrt", form, {}, rsqrt, root, root, shortened(mixed(argument), k.RSQRT_W), None, k.LATENCY_RSQRT,
+        unit_f=k.RSQRT_F,
+    )  # fmt: skip
+
+
+def cases() -> Iterator[Case]:
+    """All cases of ``rtl/fixed``."""
+    return in_forms(_steps, _weigh, _delay, _third, _root)

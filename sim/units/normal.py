@@ -1,0 +1,294 @@
+"""Normals: dot product, scaled sums, InvC, nodes, P4's metrics, increments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from golden import contract as k
+from golden import normal
+from sim.units.case import (
+    FORMS,
+    ONE,
+    Arrays,
+    Case,
+    Real,
+    corners,
+    every,
+    in_forms,
+    late,
+    mixed,
+    shortened,
+    signed_range,
+    thresholds,
+)
+
+# constants of the normals' formulas in fractions of 2^16 (golden.contract), by the form and degree of the unit
+INVC = {
+    ("refined", 2): (k.INVC_0, k.INVC_C, k.INVC_UU, k.INVC_UUUU),
+    ("paper", 2): (k.INVC2_0, k.INVC2_C, k.INVC2_CC, 0),
+    ("paper", 1): (k.INVC1_0, k.INVC1_C, 0, 0),
+}
+DEGREES = {"refined": (2,), "paper": (2, 1)}
+NODE_PORTS = (*(f"n{n}{c}_o" for n in range(5) for c in "xyz"), "clamped_o")
+
+
+def unit_vectors(rng: np.random.Generator, rows: int) -> np.ndarray:
+    """(3, rows) unit vectors in all directions, S1.16."""
+    free = rng.standard_normal((3, rows))
+    return np.rint(free / np.linalg.norm(free, axis=0) * ONE).astype(np.int64)
+
+
+def arcs(rng: np.random.Generator, rows: int) -> Arrays:
+    """Pairs of vectors ax_i .. bz_i and c_i, S1.16.
+
+    An eighth each: components from the corners, vectors of a few ulp, equal unit vectors, opposite ones, axes; the rest
+    are unit vectors with angles of any size. c is the rounded cosine, in a quarter of the rows any number.
+    """
+    kind = rng.integers(0, 8, rows)
+    axes = np.eye(3, dtype=np.int64)[:, rng.integers(0, 3, (2, rows))] * rng.choice([ONE, -ONE], (2, rows))
+    corner = rng.choice(corners(*signed_range(k.INTENSITY_W), ONE, -ONE), (3, 2, rows))
+    short = rng.integers(-4, 4, (3, 2, rows), endpoint=True)
+    a = unit_vectors(rng, rows)
+    bent = a + rng.standard_normal((3, rows)) * np.ldexp(float(ONE), -rng.integers(0, 12, rows))
+    b = np.rint(bent / np.linalg.norm(bent, axis=0) * ONE).astype(np.int64)
+    first = [kind == n for n in range(5)]
+    a = np.select(first, [corner[:, 0], short[:, 0], a, a, axes[:, 0]], a)
+    b = np.select(first, [corner[:, 1], short[:, 1], a, -a, axes[:, 1]], b)
+    low, high = signed_range(k.INTENSITY_W)
+    any_c = mixed({"c_i": (low, high)}, ONE, ONE + 1, ONE - 1)(rng, rows)["c_i"]
+    c = np.where(rng.random(rows) < 0.25, any_c, normal.dot3(*a, *b).clip(low, high))
+    return dict(zip(("ax_i", "ay_i", "az_i", "bx_i", "by_i", "bz_i", "c_i"), (*a, *b, c), strict=True))
+
+
+def _ends(i: Arrays) -> list[np.ndarray]:
+    return [i[f"{v}{c}_i"] for v in "ab" for c in "xyz"]
+
+
+def _normalize(form: str) -> Iterator[Case]:
+    """Exact normalizer: vectors of every length, down to one unit."""
+    if form != "refined":
+        return
+
+    def unit(i: Arrays) -> Arrays:
+        components = normal.normalize(i["x_i"], i["y_i"], i["z_i"])
+        zero = (i["x_i"] | i["y_i"] | i["z_i"]) == 0
+        return dict(zip(("x_o", "y_o", "z_o"), components, strict=True)) | {"zero_o": zero.astype(np.int64)}
+
+    def exact(i: Arrays) -> Arrays:
+        vector = [i[f"{c}_i"].astype(Real) for c in "xyz"]
+        length = np.sqrt(sum(c * c for c in vector))
+        return unit(i) | {
+            f"{c}_o": v * ONE / np.where(length == 0, 1, length) for c, v in zip("xyz", vector, strict=True)
+        }
+
+    vector = {f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"}
+    yield Case(
+        "shade_normalize", form, {}, unit, exact, exact, shortened(mixed(vector, ONE, -ONE), k.INTENSITY_W), None,
+        k.LATENCY_NORMALIZE,
+    )  # fmt: skip
+
+
+def _vectors(form: str) -> Iterator[Case]:
+    """Dot product, vector times number, and the scaled sum."""
+    if form != "refined":
+        return
+
+    def without_c(rng: np.random.Generator, rows: int) -> Arrays:
+        return {name: value for name, value in arcs(rng, rows).items() if name != "c_i"}
+
+    def dot(i: Arrays) -> Arrays:
+        v = [x.astype(Real) for x in _ends(i)]
+        return {"d_o": sum(a * b for a, b in zip(v[:3], v[3:], strict=True)) / ONE}
+
+    yield Case(
+        "shade_dot3", form, {}, lambda i: {"d_o": normal.dot3(*_ends(i))}, dot, dot, without_c, None, k.LATENCY_DOT3
+    )
+
+    def named(vector) -> Arrays:
+        return dict(zip(("x_o", "y_o", "z_o"), vector, strict=True))
+
+    def scaled(i: Arrays) -> Arrays:
+        return named(i[f"{c}_i"] * (i["s_i"].astype(Real) / (1 << k.INVC_F)) for c in "xyz")
+
+    factor = (0, (1 << k.INVC_F) - 1)
+    vectors = mixed({f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"} | {"s_i": factor}, ONE, -ONE)
+    for fold, latency in ((1, k.LATENCY_SCALE3), (3, k.LATENCY_SCALE3_FOLDED)):
+        yield Case(
+            "shade_scale3", form, {"FOLD": fold}, lambda i: named(normal.scale3(*(i[f"{n}_i"] for n in "xyzs"))),
+            scaled, scaled, vectors, None, latency, fold,
+        )  # fmt: skip
+
+    for wait in (1, 4):
+
+        def golden(i: Arrays, wait: int = wait) -> Arrays:
+            return named(normal.bisect(*_ends(i), late(i["invc_i"], wait)))
+
+        def exact(i: Arrays, wait: int = wait) -> Arrays:
+            return named(_bisected(*_ends(i), late(i["invc_i"], wait).astype(Real) / (1 << k.INVC_F)))
+
+        yield Case(
+            "shade_bisect", form, {"WAIT": wait}, golden, exact, exact,
+            lambda rng, rows: without_c(rng, rows) | mixed({"invc_i": factor}, ONE)(rng, rows), None,
+            wait + k.LATENCY_SCALE3,
+        )  # fmt: skip
+
+
+def _bisected(ax, ay, az, bx, by, bz, s) -> list[np.ndarray]:
+    """(a + b) s, where a + b is limited to what S1.16 holds."""
+    low, high = signed_range(k.INTENSITY_W)
+    return [(a + b).clip(low, high) * s for a, b in ((ax, bx), (ay, by), (az, bz))]
+
+
+def _invc(form: str, degree: int, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """InvC and cos(psi/2) of a unit as numbers, from c as a number in [0, 1], exactly by its formula."""
+    c = np.asarray(c, Real)
+    square = (1 - c if form == "refined" else c) ** 2
+    k0, k1, k2, k4 = INVC[form, degree]
+    value = (k0 + k1 * c + k2 * square + k4 * square**2) / ONE
+    if form == "refined":
+        return value, (k.D2_NEAR_0 + k.D2_NEAR_C * c + k.HALF_UU * square + k.HALF_UUUU * square**2) / ONE
+    far = c * ONE <= k.D2_LIMIT
+    return value, np.where(far, k.D2_FAR_0 + k.D2_FAR_C * c, k.D2_NEAR_0 + k.D2_NEAR_C * c) / ONE
+
+
+def true_invc(c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """1/sqrt(2 (1 + c)) and sqrt((1 + c)/2)."""
+    half = np.sqrt((1 + np.asarray(c, Real)) / 2)
+    return 1 / (2 * half), half
+
+
+def cosine(c: np.ndarray) -> np.ndarray:
+    """c in S1.16 as a number, clamped to [0, 1]."""
+    return c.clip(0, ONE).astype(Real) / ONE
+
+
+def _cosines(form: str) -> Iterator[Case]:
+    """The functions of one cosine, each over every cosine that 18 bits hold."""
+    everything = every({"c_i": signed_range(k.INTENSITY_W)})
+    for degree in DEGREES[form]:
+
+        def golden(i: Arrays, degree: int = degree) -> Arrays:
+            values = normal.invc(i["c_i"], FORMS[form], degree)
+            return dict(zip(("invc_o", "half_o", "clamped_o"), values, strict=True))
+
+        def value(i: Arrays, function: Callable, golden=golden) -> Arrays:
+            invc, half = function(cosine(i["c_i"]))
+            return golden(i) | {"invc_o": invc * (1 << k.INVC_F), "half_o": half * ONE}
+
+        yield Case(
+            "shade_invc", form, {"FORM": FORMS[form], "DEGREE": degree}, golden,
+            lambda i, value=value, d=degree: value(i, lambda c: _invc(form, d, c)),
+            lambda i, value=value: value(i, true_invc), None, everything, k.LATENCY_INVC, more_f={"invc_o": k.INVC_F},
+        )  # fmt: skip
+
+    def with_powers() -> Iterator[Arrays]:
+        """Every c; u^2 and u^4 come a clock later."""
+        c = np.append(np.arange(ONE + 1), ONE)
+        cut, square = 2 * k.INTENSITY_F - k.SQUARE_F, (ONE - c) ** 2
+        powers = {"uu_i": square >> cut, "uuuu_i": (square >> k.INTENSITY_F) ** 2 >> cut}
+        yield {"c_i": c} | {name: np.r_[0, power[:-1]] for name, power in powers.items()}
+
+    yield Case(
+        "shade_half", form, {"FORM": FORMS[form]}, lambda i: {"half_o": normal.half(i["c_i"], FORMS[form])},
+        lambda i: {"half_o": _invc(form, 2, cosine(i["c_i"]))[1] * ONE},
+        lambda i: {"half_o": true_invc(cosine(i["c_i"]))[1] * ONE}, None, with_powers, k.LATENCY_HALF,
+    )  # fmt: skip
+
+
+def _nodes(form: str) -> Iterator[Case]:
+    """Midpoint and node chain; ideal: the same sums, scaled by the true functions of c."""
+    for degree in DEGREES[form]:
+        point = {"FORM": FORMS[form], "DEGREE": degree}
+        outputs = ("x_o", "y_o", "z_o", "half_o", "clamped_o")
+
+        def middle(i: Arrays, point=point, outputs=outputs) -> Arrays:
+            values = normal.midpoint(*_ends(i), i["c_i"], point["FORM"], point["DEGREE"])
+            return dict(zip(outputs, values, strict=True))
+
+        def exact_middle(i: Arrays, function: Callable, outputs=outputs, middle=middle) -> Arrays:
+            s, h = function(cosine(i["c_i"]))
+            return middle(i) | dict(zip(outputs, (*_bisected(*_ends(i), s), h * ONE), strict=False))
+
+        def chain(i: Arrays, point=point) -> Arrays:
+            values = normal.node_chain(*_ends(i), i["c_i"], point["FORM"], point["DEGREE"])
+            return dict(zip(NODE_PORTS, values, strict=True))
+
+        def exact_chain(i: Arrays, function: Callable, chain=chain) -> Arrays:
+            a, b = _ends(i)[:3], _ends(i)[3:]
+            s, h = function(cosine(i["c_i"]))
+            m, s = _bisected(*a, *b, s), function(h)[0]
+            return chain(i) | dict(
+                zip(NODE_PORTS, (*a, *_bisected(*a, *m, s), *m, *_bisected(*m, *b, s), *b), strict=False)
+            )
+
+        units = (
+            ("shade_midpoint", middle, exact_middle, k.LATENCY_MIDPOINT),
+            ("shade_node_chain", chain, exact_chain, k.LATENCY_NODE_CHAIN),
+        )
+        for module, golden, exact, latency in units:
+            yield Case(
+                module, form, point, golden,
+                lambda i, exact=exact, d=degree: exact(i, lambda c: _invc(form, d, c)),
+                lambda i, exact=exact: exact(i, true_invc), arcs, None, latency,
+            )  # fmt: skip
+
+
+def _metric(form: str) -> Iterator[Case]:
+    """P4's metrics: how a line is normalized."""
+    if form != "paper":
+        return
+    ports = ["d1a_o", "d2_o", "needs_d1_o", "needs_d2_o", "clamped_o", "m_error_o", "threshold_error_o"]
+
+    def golden(i: Arrays) -> Arrays:
+        return dict(zip(ports, normal.metric(i["c_i"], i["m_i"], i["threshold_i"]), strict=True))
+
+    def exact(i: Arrays) -> Arrays:
+        c, m = cosine(i["c_i"]), i["m_i"].clip(k.METRIC_M_MIN, k.METRIC_M_MAX)
+        return golden(i) | {"d1a_o": k.D1_0 + k.D1_C * c + k.D1_M * m, "d2_o": _invc(form, 2, c)[1] * ONE}
+
+    def ideal(i: Arrays) -> Arrays:
+        c, m = cosine(i["c_i"]), i["m_i"].clip(k.METRIC_M_MIN, k.METRIC_M_MAX)
+        return golden(i) | {"d1a_o": np.cos(np.arccos(c) / m) * ONE, "d2_o": true_invc(c)[1] * ONE}
+
+    def all_of() -> Iterator[Arrays]:
+        rng = np.random.default_rng(1)
+        low, high = signed_range(k.INTENSITY_W)
+        for m in (*range(16), (1 << k.COUNT_W) - 1):
+            c = np.arange(low, high + 1)
+            threshold = thresholds(rng, len(c), k.METRIC_THRESHOLD, k.INTENSITY_W)
+            yield {"c_i": c, "m_i": np.full(len(c), m), "threshold_i": threshold}
+
+    yield Case("shade_metric", form, {}, golden, exact, ideal, None, all_of, k.LATENCY_METRIC)
+
+
+def _increment(form: str) -> Iterator[Case]:
+    """Triangles of normals: starts, pixels, lines. The exact value keeps every bit of the sums."""
+    if form != "refined":
+        return
+    names = [f"{c}{kind}_i" for kind in "ngl" for c in "xyz"]
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        unit = 1 << k.STEP_F
+        values = mixed(dict.fromkeys(names[:3], (-unit, unit)) | dict.fromkeys(names[3:], (-unit >> 10, unit >> 10)))
+        first = (rng.random(rows) < 0.01).astype(np.int64)
+        first[0] = 1
+        return values(rng, rows) | {"first_i": first, "line_i": (rng.random(rows) < 0.1).astype(np.int64)}
+
+    def golden(i: Arrays) -> Arrays:
+        return {
+            f"{c}_o": normal.increment(i["first_i"], i["line_i"], *(i[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz"
+        }
+
+    def exact(i: Arrays) -> Arrays:
+        ulp = 1 << k.STEP_F - k.INTENSITY_F
+        sums = (normal.increment_sum(i["first_i"], i["line_i"], *(i[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz")
+        return {f"{c}_o": value.astype(Real) / ulp for c, value in zip("xyz", sums, strict=True)}
+
+    yield Case("shade_increment", form, {}, golden, exact, exact, vectors, None, k.LATENCY_INCREMENT)
+
+
+def cases() -> Iterator[Case]:
+    """All cases of ``rtl/normal`` but whole lines, which are checked by :func:`sim.units.check_pixel_normals`."""
+    return in_forms(_normalize, _vectors, _cosines, _nodes, _metric, _increment)

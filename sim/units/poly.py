@@ -1,0 +1,186 @@
+"""Coefficients of a span and their evaluation."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from golden import contract as k
+from golden import poly
+from sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, late, mixed, signed_range
+
+# numerators over 3 of the cubic's coefficients, in I1 .. I4 (P1, section IV, both parts brought together)
+CUBIC = {
+    k.NODES_LEFT: {"a": (-24, 64, -48, 8), "b": (42, -96, 60, -6), "c": (-21, 32, -12, 1)},
+    k.NODES_RIGHT: {"a": (-8, 48, -64, 24), "b": (18, -84, 96, -30), "c": (-13, 36, -32, 9)},
+}
+LOWER = {"a": {}, "b": {2: (2, -4, 2, 0)}, "c": {2: (-3, 4, -1, 0), 1: (-1, 1, 0, 0)}}
+# what P1 divides by three goes through 43/128: (divided, exact) in I1 .. I4
+PAPER = {
+    k.NODES_LEFT: {"a": ((0, 64, 0, 8), (-8, 0, -16, 0)), "c": ((0, 32, 0, 1), (-7, 0, -4, 0))},
+    k.NODES_RIGHT: {"a": ((-8, 0, -64, 0), (0, 16, 0, 8)), "c": ((-13, 0, -32, 0), (0, 12, 0, 3))},
+}
+
+
+def _weighted(weights, inputs: Arrays) -> np.ndarray:
+    return sum(w * inputs[f"i{i}_i"].astype(Real) for i, w in enumerate(weights, 1))
+
+
+def coefficient(name: str, nodes: int, form: str) -> Callable[[Arrays], np.ndarray]:
+    """The exact value of a coefficient's formula."""
+
+    def exact(inputs: Arrays) -> np.ndarray:
+        if name == "d":
+            return inputs["i1_i"].astype(Real)
+        if form == "paper" and name in PAPER[nodes]:
+            divided, whole = PAPER[nodes][name]
+            cubic = _weighted(divided, inputs) * 43 / 128 + _weighted(whole, inputs)
+        else:
+            cubic = _weighted(CUBIC[nodes][name], inputs) / 3
+        lower = {degree: _weighted(weights, inputs) for degree, weights in LOWER[name].items()}
+        degree = inputs["degree_i"]
+        return np.select([degree == 3, *(degree == d for d in lower)], [cubic, *lower.values()], Real(0))
+
+    return exact
+
+
+def _coef(form: str) -> Iterator[Case]:
+    def golden_part(name: str, nodes: int):
+        def golden(i: Arrays) -> Arrays:
+            arguments = [i["degree_i"], *(i[f"i{n}_i"] for n in range(1, 5))]
+            value = {
+                "a": lambda: poly.coef_a(*arguments, nodes=nodes, form=FORMS[form]),
+                "b": lambda: poly.coef_b(*arguments, nodes=nodes),
+                "c": lambda: poly.coef_c(*arguments, nodes=nodes, form=FORMS[form]),
+            }[name]()
+            return {f"{name}_o": value}
+
+        return golden
+
+    def golden_all(nodes: int):
+        def golden(i: Arrays) -> Arrays:
+            values = poly.coef(i["degree_i"], *(i[f"i{n}_i"] for n in range(1, 5)), nodes=nodes, form=FORMS[form])
+            return {f"{name}_o": value for name, value in zip("abcd", values, strict=True)}
+
+        return golden
+
+    for nodes, width in itertools.product((k.NODES_LEFT, k.NODES_RIGHT), (k.INTENSITY_W, 5)):
+        ranges = {"degree_i": (0, 3), **{f"i{n}_i": signed_range(width) for n in range(1, 5)}}
+        random = mixed(ranges, ONE, -ONE) if width == k.INTENSITY_W else None
+        all_of = None if random else every(ranges)
+        point = {"WIDTH": width, "NODES": nodes}
+        units = [("shade_coef", "abcd", golden_all(nodes), {"FORM": FORMS[form]})]
+        units += [(f"shade_coef_{n}", n, golden_part(n, nodes), {"FORM": FORMS[form]}) for n in "ac"]
+        if form == "refined":  # B and D have one form
+            units.append(("shade_coef_b", "b", golden_part("b", nodes), {}))
+        for module, names, golden, more in units:
+            values = {n: coefficient(n, nodes, form) for n in names}
+            ideals = {n: coefficient(n, nodes, "refined") for n in names}
+            exact = lambda i, v=values: {f"{n}_o": f(i) for n, f in v.items()}  # noqa: E731
+            ideal = lambda i, v=ideals: {f"{n}_o": f(i) for n, f in v.items()}  # noqa: E731
+            yield Case(
+                module, form, point | more, golden, exact, exact if form == "refined" else ideal, random, all_of,
+                k.LATENCY_COEF,
+            )  # fmt: skip
+    if form == "refined":
+        for width in (k.INTENSITY_W, 12):
+            same = {"i1_i": signed_range(width)}
+            yield Case(
+                "shade_coef_d", form, {"WIDTH": width}, lambda i: {"d_o": poly.coef_d(i["i1_i"])},
+                lambda i: {"d_o": i["i1_i"].astype(Real)}, lambda i: {"d_o": i["i1_i"].astype(Real)},
+                mixed(same) if width == k.INTENSITY_W else None, None if width == k.INTENSITY_W else every(same),
+                k.LATENCY_COEF,
+            )  # fmt: skip
+
+
+def _horner_step(form: str) -> Iterator[Case]:
+    if form != "refined":
+        return
+    width, t_f = k.VALUE_W + k.HORNER_GUARD, k.T_F
+    half = signed_range(width - 1)  # s and c, so that the sum fits
+
+    def exact(i: Arrays) -> Arrays:
+        return {"y_o": i["s_i"] * (i["t_i"].astype(Real) / (1 << t_f)) + late(i["c_i"], k.LATENCY_MUL)}
+
+    yield Case(
+        "shade_horner_step", form, {},
+        lambda i: {"y_o": poly.horner_step(i["s_i"], i["t_i"], late(i["c_i"], k.LATENCY_MUL))}, exact, exact,
+        mixed({"s_i": half, "t_i": (0, 1 << t_f), "c_i": half}), None, k.LATENCY_HORNER_STEP,
+        unit_f=k.INTENSITY_F + k.HORNER_GUARD,
+    )  # fmt: skip
+
+
+def _horner(form: str) -> Iterator[Case]:
+    if form != "refined":
+        return
+    points = [(k.COEF_W, k.INTENSITY_W, k.T_F), (4, 4, 4)]
+    for coef_w, d_w, t_f in points:
+        ranges = {f"{n}_i": signed_range(coef_w) for n in "abc"} | {"d_i": signed_range(d_w), "t_i": (0, 1 << t_f)}
+        full = coef_w == k.COEF_W
+
+        def exact(i: Arrays, t_f: int = t_f) -> Arrays:
+            t = i["t_i"].astype(Real) / (1 << t_f)
+            return {"y_o": ((i["a_i"] * t + i["b_i"]) * t + i["c_i"]) * t + i["d_i"]}
+
+        for module, latency, clocks in (
+            ("shade_horner_pipe", k.LATENCY_HORNER_PIPE, 1),
+            ("shade_horner_seq", k.LATENCY_HORNER_SEQ, k.LATENCY_HORNER_SEQ),
+        ):
+            yield Case(
+                module, form, {"COEF_W": coef_w, "D_W": d_w, "T_F": t_f},
+                lambda i, t_f=t_f: {"y_o": poly.horner(*(i[f"{n}_i"] for n in "abcdt"), t_f=t_f)}, exact, exact,
+                mixed(ranges, 1 << t_f >> 1) if full else None, None if full else every(ranges), latency, clocks,
+            )  # fmt: skip
+
+
+def _fdiff(form: str) -> Iterator[Case]:
+    if form != "refined":
+        return
+
+    def golden(i: Arrays) -> Arrays:
+        return {"y_o": poly.fdiff(*(i[f"{n}_i"] for n in "abcd"), i["log2_i"], pixel_index(i["first_i"]))}
+
+    def exact(i: Arrays) -> Arrays:
+        t = np.ldexp(pixel_index(i["first_i"]).astype(Real), -i["log2_i"])
+        return {"y_o": ((i["a_i"] * t + i["b_i"]) * t + i["c_i"]) * t + i["d_i"]}
+
+    def random(rng: np.random.Generator, rows: int) -> Arrays:
+        log2 = rng.integers(0, k.LOG2_MAX, rows // 2 + 1, endpoint=True)
+        log2[0] = k.LOG2_MAX  # the longest segment, whole
+        count = (1 << log2) + 1
+        count = count[np.cumsum(count) <= rows]
+        count = np.r_[count, np.ones(rows - count.sum(), int)]
+        log2 = np.resize(log2, len(count))
+        ranges = {f"{n}_i": signed_range(k.COEF_W) for n in "abc"} | {"d_i": signed_range(k.INTENSITY_W)}
+        return spread(mixed(ranges)(rng, len(count)) | {"log2_i": log2}, count)
+
+    def all_of() -> Iterator[Arrays]:
+        ranges = {f"{n}_i": signed_range(4) for n in "abcd"} | {"log2_i": (0, 3)}
+        for part in every(ranges)():
+            yield spread(part, (1 << part["log2_i"]) + 1)
+
+    yield Case("shade_fdiff", form, {}, golden, exact, exact, random, None, k.LATENCY_FDIFF)
+    yield Case(
+        "shade_fdiff", form, {"COEF_W": 4, "D_W": 4, "LOG2_MAX": 3}, golden, exact, exact, None, all_of, k.LATENCY_FDIFF
+    )
+
+
+def spread(segments: Arrays, count: np.ndarray) -> Arrays:
+    """Segments to pixels: every row ``count`` times, with ``first_i`` at the first."""
+    rows = {name: np.repeat(value, count) for name, value in segments.items()}
+    first = np.zeros(int(count.sum()), np.int64)
+    first[np.cumsum(count) - count] = 1
+    return rows | {"first_i": first}
+
+
+def pixel_index(first: np.ndarray) -> np.ndarray:
+    """Index of each pixel in its segment, from the marks of the first ones."""
+    position = np.arange(len(first))
+    return position - np.maximum.accumulate(np.where(first, position, 0))
+
+
+def cases() -> Iterator[Case]:
+    """All cases of ``rtl/poly`` but whole spans, which are checked by :func:`sim.units.check_poly_span`."""
+    return in_forms(_coef, _horner_step, _horner, _fdiff)

@@ -148,15 +148,15 @@ LATENCY_PIXEL_NORMALS = 2 + LATENCY_INCREMENT + LATENCY_NORMALIZE + 1 + LATENCY_
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 
-# ---- error bits of shade_poly_span -------------------------------------------------------------------------------
+# ---- error bits of shade_poly_span; of shade_pixel_normals the first two and those below -------------------------
 ERROR_EMPTY = 0  # a span of 0 pixels
 ERROR_LONG = 1  # more pixels than 2^LOG2_MAX
 ERROR_DIRECT = 2  # direct mode with more than four pixels
 ERROR_W = 3
 
 # ---- error bits of shade_pixel_normals ------------------------------------------------------------------------
-ERROR_METRIC = 2  # V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
-ERROR_THRESHOLD = 3  # threshold outside [0, 1]; taken as 0 or 1
+LINE_ERROR_METRIC = 2  # V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
+LINE_ERROR_THRESHOLD = 3  # threshold outside [0, 1]; taken as 0 or 1
 LINE_ERROR_W = 4
 
 

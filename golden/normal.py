@@ -240,7 +240,7 @@ def line_errors(count: ArrayLike, variant: ArrayLike, threshold: ArrayLike) -> I
     bad = ((count == 0) << k.ERROR_EMPTY) | ((count > k.PIXELS_MAX) << k.ERROR_LONG)
     *_, m_error, threshold_error = metric(0, count - 1, threshold)
     asks = (variant == k.VARIANT_V1) | (variant == k.VARIANT_V2)
-    return np.where(bad > 0, bad, (m_error & asks) << k.ERROR_METRIC | threshold_error << k.ERROR_THRESHOLD)
+    return np.where(bad > 0, bad, (m_error & asks) << k.LINE_ERROR_METRIC | threshold_error << k.LINE_ERROR_THRESHOLD)
 
 
 def pack_lines(n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, tag: ArrayLike = 0) -> np.ndarray:

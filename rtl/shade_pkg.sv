@@ -165,15 +165,15 @@ package shade_pkg;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 
-  // error bits of shade_poly_span
+  // error bits of shade_poly_span; of shade_pixel_normals the first two and those below
   localparam int ERROR_EMPTY = 0;  // a span of 0 pixels
   localparam int ERROR_LONG = 1;  // more pixels than 2^LOG2_MAX
   localparam int ERROR_DIRECT = 2;  // direct mode with more than four pixels
   localparam int ERROR_W = 3;
 
   // error bits of shade_pixel_normals
-  localparam int ERROR_METRIC = 2;  // V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
-  localparam int ERROR_THRESHOLD = 3;  // threshold outside [0, 1]; taken as 0 or 1
+  localparam int LINE_ERROR_METRIC = 2;  // V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
+  localparam int LINE_ERROR_THRESHOLD = 3;  // threshold outside [0, 1]; taken as 0 or 1
   localparam int LINE_ERROR_W = 4;
 
 endpackage

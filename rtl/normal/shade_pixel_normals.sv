@@ -15,7 +15,7 @@
 //   s_axis_line    normal and increment, S2.29; pixels at LINE_COUNT_LSB, 1 .. 4096; tag; cosine of the ends, S1.16
 //   m_axis_normal  tdata = x, y, z, S1.16, at bit 0, 18, 36; tuser = tag; tlast = last of the line
 //   variant_i, threshold_i  taken with each line; the threshold is S1.16 in [0, 1]
-//   error_o, error_count_o  ERROR_EMPTY, _LONG: the line is dropped and counted; ERROR_METRIC, _THRESHOLD: clamped
+//   error_o, error_count_o  ERROR_EMPTY, _LONG: dropped and counted; LINE_ERROR_METRIC, _THRESHOLD: clamped
 //
 //   line ─▶ shade_walk ─▶ shade_increment ─▶ shade_normalize ─▶ E ─┬─▶ shade_dot3 ─▶ shade_invc ─▶ s ─┐
 //                                                                   └────────────▶ shade_bisect ◀──────┴─▶ shade_fifo

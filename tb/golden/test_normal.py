@@ -51,4 +51,4 @@ def test_lines_that_give_nothing() -> None:
     _, of = normal.pixel_normals(n, g, [0, 2, k.PIXELS_MAX + 1], [ONE] * 3, k.VARIANT_V1, ONE)
     assert of.tolist() == [1, 1]
     errors = normal.line_errors([0, 2, k.PIXELS_MAX + 1], k.VARIANT_V1, ONE)
-    assert errors.tolist() == [1 << k.ERROR_EMPTY, 1 << k.ERROR_METRIC, 1 << k.ERROR_LONG]
+    assert errors.tolist() == [1 << k.ERROR_EMPTY, 1 << k.LINE_ERROR_METRIC, 1 << k.ERROR_LONG]

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from golden.reference.light import MODELS
 from scripts.sources import BUILD
@@ -16,6 +17,7 @@ from sim.errors import UserError
 from sim.scene.camera import PROJECTIONS, Camera
 
 VIEW = Camera()
+PATH_OF = {"degree": "poly", "evaluator": "poly", "variant": "normals", "threshold": "normals"}  # options of one path
 
 
 @click.group(
@@ -32,11 +34,11 @@ def cli() -> None:
 @click.option("--subdivide", default=0, help="Catmull-Clark steps, 0 to 4.")
 @click.option("--size", default=VIEW.size, help="Width and height in pixels, 16 to 4096.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
-@click.option("--degree", default=3, help="Degree of every span in form paper, 1 to 3.")
+@click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
 @click.option("--path", default="poly", help="poly: a polynomial along each span; normals: a unit normal every pixel.")
-@click.option("--evaluator", default="horner", help="horner: a multiplier per step; fdiff: forward differences, none.")
+@click.option("--evaluator", default="horner", help="Of path poly: horner, a multiplier a step; fdiff, forward differences.")
 @click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
-@click.option("--threshold", default=0.9, help="Length below which V1, V2, V4, V5 normalize, 0 to 1.")
+@click.option("--threshold", default=0.9, help="Of path normals: length below which V1, V2, V4, V5 normalize, 0 to 1.")
 @click.option("--model", default="blinn", help=f"Light: {', '.join(MODELS)}.")
 @click.option("--shininess", default=32.0, help="Exponent n of the highlight, 1 to 1024.")
 @click.option(
@@ -56,6 +58,10 @@ def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, fi
     out = options.pop("out")
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
     settings = frame.Settings(camera=camera, **options)
+    for name, path in PATH_OF.items():
+        given = click.get_current_context().get_parameter_source(name) is not ParameterSource.DEFAULT
+        if given and path != settings.path:
+            raise UserError(f"--{name}: is without effect on path {settings.path}, allowed with --path {path}")
     if out is not None and (not out or "\0" in out or (os.path.exists(out) and not os.path.isdir(out))):
         raise UserError(f"--out {out!r}: is no folder, allowed a folder or a new name")
     folder = BUILD / "render" / Path(settings.mesh).stem if out is None else Path(out)

@@ -372,6 +372,13 @@ BAD_SHAPES = [
     (["--\x1b[31m"], "31m"),
     (["--" + "x" * 5000], "No such option"),
 ]
+OTHER_PATH = [
+    *((["--path", "normals", *option], option[0]) for option in (["--degree", "3"], ["--evaluator", "fdiff"])),
+    *((["--path", "poly", *option], option[0]) for option in (["--variant", "refined"], ["--threshold", "0.9"])),
+    (["--variant", "V5"], "--variant: is without effect on path poly, allowed with --path normals"),
+    (["--path", "normals", "--form", "paper", "--degree", "2"], "--degree"),
+    (["--path", "poly", "--degree", "2", "--path", "normals"], "--degree"),  # the last path counts
+]
 BAD_COMMANDS = [
     ([], "command"),
     ([""], "command"),
@@ -408,7 +415,7 @@ BAD_COMMANDS = [
 ]
 BAD_RENDERS = [
     (["render", "--mesh", "sphere", "--size", "16", *options], told)
-    for options, told in [*BAD_NUMBERS, *BAD_NAMES, *BAD_SHAPES]
+    for options, told in [*BAD_NUMBERS, *BAD_NAMES, *BAD_SHAPES, *OTHER_PATH]
 ]
 
 

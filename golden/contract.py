@@ -83,6 +83,7 @@ LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 7
 LOBE_F = 22  # 1 - base and its powers, U1.22
 GAIN_F = 16  # mantissa of the gain, U1.16 in [1, 2), or 0
 GAIN_EXP_W = 6  # exponent of the gain, -32 .. 31
+FRESNEL_F = 18  # fraction bits of the powers of 1 - c
 
 # ---- spans -----------------------------------------------------------------------------------------------------
 CHANNELS = 2  # diffuse, specular
@@ -145,6 +146,11 @@ LATENCY_CRITERION = 1 + 2 * LATENCY_MUL + 2 + LATENCY_WEIGH + 1  # u, u^2, u^4, 
 LATENCY_INCREMENT = 2  # sum, rounding
 LATENCY_MIDDLE = LATENCY_DOT3 + LATENCY_INVC + 1 + LATENCY_SCALE3  # cosine, factor, choice, scaling
 LATENCY_PIXEL_NORMALS = 2 + LATENCY_INCREMENT + LATENCY_NORMALIZE + 1 + LATENCY_MIDDLE + LATENCY_FIFO
+LATENCY_VERSINE = 1 + LATENCY_MUL + 3  # differences, squares, two adders, clamp
+LATENCY_REFLECT = LATENCY_DOT3 + 2 + LATENCY_MUL + 2  # N.L, its sign and range, products, difference, range
+LATENCY_HALFWAY = 1 + LATENCY_NORMALIZE + LATENCY_DOT3 + 1  # sum, H, V.H, clamp
+LATENCY_FRESNEL = 1 + 4 * (LATENCY_MUL + 1)  # u = 1 - c, u^2, u^4, u^5, the blend
+LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 

@@ -49,6 +49,16 @@ def saturate(x: ArrayLike, out_w: int) -> Int:
     return np.clip(x, 0, (1 << out_w) - 1)
 
 
+def limit(x: ArrayLike, out_w: int = k.INTENSITY_W) -> Int:
+    """min(max(x, -2^(out_w - 1)), 2^(out_w - 1) - 1): into a signed number of out_w bits (``shade_limit``).
+
+    >>> [int(limit(x, 4)) for x in (-9, -8, 7, 8)]
+    [-8, -8, 7, 7]
+    """
+    (x,) = integers(x)
+    return np.clip(x, -1 << out_w - 1, (1 << out_w - 1) - 1)
+
+
 def mul(a: ArrayLike, b: ArrayLike) -> Int:
     """a b, exact (``shade_mul``).
 

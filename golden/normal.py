@@ -28,14 +28,14 @@ def normalize(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Int, Int, Int]:
     return tuple(round((c << 17 - e) * r, k.RSQRT_F + 1) for c in (x, y, z))
 
 
-def dot3(ax: ArrayLike, ay, az, bx, by, bz) -> Int:
-    """a . b, S4.16, the exact sum of three products rounded once, to nearest, ties up (``shade_dot3``).
+def dot3(ax: ArrayLike, ay, az, bx, by, bz, f: int = k.INTENSITY_F) -> Int:
+    """a . b, S4.f, the exact sum of three products rounded once, to nearest, ties up (``shade_dot3``).
 
     >>> int(dot3(39322, 0, 52429, 0, 0, 65536)) / 65536  # (0.6, 0, 0.8) . (0, 0, 1)
     0.8000030517578125
     """
     ax, ay, az, bx, by, bz = integers(ax, ay, az, bx, by, bz)
-    return round(ax * bx + ay * by + az * bz, k.INTENSITY_F)
+    return round(ax * bx + ay * by + az * bz, 2 * k.INTENSITY_F - f)
 
 
 def half(c: ArrayLike, form: int = k.FORM_REFINED) -> Int:

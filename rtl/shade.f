@@ -4,6 +4,7 @@ rtl/fixed/shade_delay.sv
 rtl/fixed/shade_valid.sv
 rtl/fixed/shade_round.sv
 rtl/fixed/shade_saturate.sv
+rtl/fixed/shade_limit.sv
 rtl/fixed/shade_clamp.sv
 rtl/fixed/shade_mul.sv
 rtl/fixed/shade_square.sv
@@ -36,3 +37,5 @@ rtl/normal/shade_metric.sv
 rtl/plan/shade_criterion.sv
 rtl/normal/shade_increment.sv
 rtl/normal/shade_pixel_normals.sv
+rtl/light/shade_versine.sv
+rtl/light/shade_reflect.sv

@@ -100,6 +100,7 @@ package shade_pkg;
   localparam int LOBE_F = 22;  // 1 - base and its powers, U1.22
   localparam int GAIN_F = 16;  // mantissa of the gain, U1.16 in [1, 2), or 0
   localparam int GAIN_EXP_W = 6;  // exponent of the gain, -32 .. 31
+  localparam int FRESNEL_F = 18;  // fraction bits of the powers of 1 - c
 
   // spans
   localparam int CHANNELS = 2;  // diffuse, specular
@@ -162,6 +163,11 @@ package shade_pkg;
   localparam int LATENCY_INCREMENT = 2;  // sum, rounding
   localparam int LATENCY_MIDDLE = 17;  // cosine, factor, choice, scaling
   localparam int LATENCY_PIXEL_NORMALS = 43;
+  localparam int LATENCY_VERSINE = 6;  // differences, squares, two adders, clamp
+  localparam int LATENCY_REFLECT = 10;  // N.L, its sign and range, products, difference, range
+  localparam int LATENCY_HALFWAY = 25;  // sum, H, V.H, clamp
+  localparam int LATENCY_FRESNEL = 13;  // u = 1 - c, u^2, u^4, u^5, the blend
+  localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 

@@ -23,6 +23,7 @@ POINTS: dict[str, list[Point]] = {
     ],
     "shade_saturate": [{"WIDTH": 3, "OUT_W": 1}, {"WIDTH": 40, "OUT_W": 8}],
     "shade_mul": [*grid(A_W=[2, 18, 19, 35], STAGES=[0, 2]), {"A_W": 17, "B_W": 2}],
+    "shade_limit": [{"WIDTH": 19}, {"WIDTH": 3, "OUT_W": 2}],
     "shade_clamp": [{"WIDTH": 20, "F": 18}, {"WIDTH": 3, "F": 1}],
     "shade_square": [{"WIDTH": 2}, {"WIDTH": 11}],
     "shade_weigh": [{"K0": 0, "KX": 0, "KY": 65535, "KZ": 43691}, {"WIDTH": 6, "F": 4, "OUT_F": 2, "OUT_W": 12}],
@@ -39,6 +40,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_fifo": grid(WIDTH=[1, 48], LOG2=[1, 4]),
     "shade_walk": [{"COUNT_W": 4, "ERROR_W": 1, "CREDIT_LOG2": 1}],
     "shade_span_walk": grid(LOG2_MAX=[2, 12], CREDIT_LOG2=[1, 6]),
+    "shade_dot3": grid(OUT_F=[17, 31]),
     "shade_scale3": [{"FOLD": 3}],
     "shade_half": [{"FORM": 0}],
     "shade_invc": grid(FORM=[0], DEGREE=[1, 2]),
@@ -46,6 +48,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_midpoint": grid(FORM=[0], DEGREE=[1, 2]),
     "shade_node_chain": grid(FORM=[0], DEGREE=[1, 2]),
     "shade_criterion": grid(FORM=[0], DEGREE=[1, 2]),
+    "shade_versine": [{"FORM": 0}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
 }
 
@@ -55,6 +58,7 @@ REFUSED: dict[str, list[Point]] = {
     "shade_round": [{"WIDTH": 4, "DROP": 4}, {"DROP": 0}],
     "shade_saturate": [{"WIDTH": 8, "OUT_W": 7}],
     "shade_mul": [{"A_W": 36}, {"B_W": 19}, {"STAGES": 1}],
+    "shade_limit": [{"OUT_W": 1}, {"OUT_W": 21}],
     "shade_clamp": [{"WIDTH": 17}, {"F": 0}],
     "shade_square": [{"WIDTH": 1}, {"WIDTH": 19}],
     "shade_weigh": [{"WIDTH": 1}, {"OUT_F": 34}, {"KX": 87381, "KY": 87381}, {"KX": 1 << 19}, {"KZ": -(1 << 19)}],
@@ -70,11 +74,13 @@ REFUSED: dict[str, list[Point]] = {
     "shade_fifo": [{"WIDTH": 0}, {"LOG2": 0}],
     "shade_walk": [{"COUNT_W": 0}, {"ERROR_W": 0}, {"CREDIT_LOG2": 0}],
     "shade_span_walk": [{"LOG2_MAX": 1}, {"LOG2_MAX": 13}, {"CREDIT_LOG2": 0}],
+    "shade_dot3": grid(OUT_F=[0, 32]),
     "shade_scale3": [{"FOLD": 2}],
     "shade_half": [{"FORM": 2}],
     "shade_invc": [{"FORM": 2}, {"DEGREE": 1}, {"FORM": 0, "DEGREE": 3}],
     "shade_bisect": [{"WAIT": 0}],
     "shade_criterion": [{"FORM": 2}, {"DEGREE": 1}, {"FORM": 0, "DEGREE": 3}],
+    "shade_versine": [{"FORM": 2}],
     "shade_poly_span": [{"EVALUATOR": 2}],
 }
 
@@ -84,6 +90,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_coef": [{"FORM": 0}, {"NODES": 1}],
     "shade_poly_span": [{"EVALUATOR": 1}],
     "shade_scale3": [{"FOLD": 3}],
+    "shade_versine": [{"FORM": 0}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }
 

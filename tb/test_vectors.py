@@ -19,6 +19,7 @@ BOUND = {
     "shade_delay": 0,
     "shade_fifo": 0,
     "shade_saturate": 0,
+    "shade_limit": 0,
     "shade_mul": 0,
     "shade_round": 1 / 2,
     "shade_third": 1 / 3,
@@ -46,11 +47,13 @@ BOUND = {
     "shade_metric": 1 / 2,
     "shade_criterion": 0.85,
     "shade_increment": 1 / 2,
+    "shade_versine": 1 / 2,
+    "shade_reflect": 1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
 }
 NEEDS_FULL = {
     *(name for name in BOUND if name.startswith(("shade_coef", "shade_horner"))),
     *("shade_fdiff", "shade_rsqrt", "shade_normalize", "shade_dot3", "shade_scale3", "shade_bisect", "shade_midpoint"),
-    *("shade_node_chain", "shade_criterion", "shade_increment"),
+    *("shade_node_chain", "shade_criterion", "shade_increment", "shade_versine", "shade_reflect"),
 }
 
 

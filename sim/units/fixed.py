@@ -31,6 +31,12 @@ def _steps(form: str) -> Iterator[Case]:
             "shade_saturate", form, {"WIDTH": width, "OUT_W": out_w}, clamp, clamp, clamp,
             mixed(ranges, 1 << out_w) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
         )  # fmt: skip
+    for width, out_w in ((20, 12), (k.DOT_W, k.INTENSITY_W)):
+        limit = lambda i, o=out_w: {"y_o": fixed.limit(i["x_i"], o)}  # noqa: E731
+        yield Case(
+            "shade_limit", form, {"WIDTH": width, "OUT_W": out_w}, limit, limit, limit, None,
+            every({"x_i": signed_range(width)}), 0,
+        )  # fmt: skip
     clamp = lambda i: dict(zip(("y_o", "clamped_o"), fixed.clamp(i["x_i"]), strict=True))  # noqa: E731
     yield Case("shade_clamp", form, {}, clamp, clamp, clamp, None, every({"x_i": signed_range(k.INTENSITY_W)}), 0)
     for width in (k.INTENSITY_W, 9):

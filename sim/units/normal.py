@@ -62,6 +62,16 @@ def arcs(rng: np.random.Generator, rows: int) -> Arrays:
     return dict(zip(("ax_i", "ay_i", "az_i", "bx_i", "by_i", "bz_i", "c_i"), (*a, *b, c), strict=True))
 
 
+def ends(names: str = "ab") -> Callable[[np.random.Generator, int], Arrays]:
+    """The two vectors of :func:`arcs`, named so: with "nl", ports nx_i .. lz_i."""
+
+    def make(rng: np.random.Generator, rows: int) -> Arrays:
+        components = list(arcs(rng, rows).values())[:6]
+        return dict(zip((f"{v}{c}_i" for v in names for c in "xyz"), components, strict=True))
+
+    return make
+
+
 def _ends(i: Arrays) -> list[np.ndarray]:
     return [i[f"{v}{c}_i"] for v in "ab" for c in "xyz"]
 
@@ -95,16 +105,16 @@ def _vectors(form: str) -> Iterator[Case]:
     if form != "refined":
         return
 
-    def without_c(rng: np.random.Generator, rows: int) -> Arrays:
-        return {name: value for name, value in arcs(rng, rows).items() if name != "c_i"}
+    for out_f in (k.INTENSITY_F, k.INTENSITY_F + 1):
 
-    def dot(i: Arrays) -> Arrays:
-        v = [x.astype(Real) for x in _ends(i)]
-        return {"d_o": sum(a * b for a, b in zip(v[:3], v[3:], strict=True)) / ONE}
+        def dot(i: Arrays, out_f: int = out_f) -> Arrays:
+            v = [x.astype(Real) for x in _ends(i)]
+            return {"d_o": np.ldexp(sum(a * b for a, b in zip(v[:3], v[3:], strict=True)), out_f - 2 * k.INTENSITY_F)}
 
-    yield Case(
-        "shade_dot3", form, {}, lambda i: {"d_o": normal.dot3(*_ends(i))}, dot, dot, without_c, None, k.LATENCY_DOT3
-    )
+        yield Case(
+            "shade_dot3", form, {"OUT_F": out_f}, lambda i, f=out_f: {"d_o": normal.dot3(*_ends(i), f=f)}, dot, dot,
+            ends(), None, k.LATENCY_DOT3, unit_f=out_f,
+        )  # fmt: skip
 
     def named(vector) -> Arrays:
         return dict(zip(("x_o", "y_o", "z_o"), vector, strict=True))
@@ -130,7 +140,7 @@ def _vectors(form: str) -> Iterator[Case]:
 
         yield Case(
             "shade_bisect", form, {"WAIT": wait}, golden, exact, exact,
-            lambda rng, rows: without_c(rng, rows) | mixed({"invc_i": factor}, ONE)(rng, rows), None,
+            lambda rng, rows: ends()(rng, rows) | mixed({"invc_i": factor}, ONE)(rng, rows), None,
             wait + k.LATENCY_SCALE3,
         )  # fmt: skip
 

@@ -1,0 +1,88 @@
+// shade_versine: x = 1 - cos of the angle between two unit vectors: what every lobe is a function of.
+//
+//   FORM_REFINED  x = |a - b|^2 / 2     the chord: an error of the vectors' lengths enters squared or times x
+//   FORM_PAPER    x = 1 - a . b         it enters in full, and a shininess n multiplies it
+//
+//   ax_i .. bz_i   sd.ffff              S1.16
+//   a - b         sdd.ffff              saturated to S1.16 (beyond 2 only for vectors longer than 1)
+//   products       36 bits, exact       three 18 x 18 multipliers, squares of the differences or a_i b_i
+//   x_o             d.ffff f            U2.20, rounded once, to nearest, ties up, and clamped to [0, 2]: error 1/2 ulp
+//   range_o                             the rounded x was outside [0, 2], the cosine outside [-1, 1]
+//
+// Opposite axes give 2 - 2^-15 + 2^-33 in the refined form, because 2 saturates.
+// Latency LATENCY_VERSINE = 6 clocks, one value a clock. Source: P1's and P3's cos, by its complement.
+// Example: a = (0, 0, 1), b = (0.6, 0, 0.8) -> x = (0.36 + 0.04) / 2 = 0.2.
+module shade_versine #(
+  parameter int FORM = shade_pkg::FORM_REFINED
+) (
+  input  logic                                     clk_i,
+  input  logic                                     rst_i,
+  input  logic                                     valid_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] ax_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] ay_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] az_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] bx_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] by_i,
+  input  logic signed [shade_pkg::INTENSITY_W-1:0] bz_i,
+  output logic                                     valid_o,
+  output logic        [  shade_pkg::VERSINE_W-1:0] x_o,
+  output logic                                     range_o
+);
+  if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check
+    $error("shade_versine: FORM must be FORM_PAPER or FORM_REFINED");
+  end
+
+  localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
+  localparam int W = shade_pkg::INTENSITY_W;
+  localparam int P_F = 2 * shade_pkg::INTENSITY_F;
+  localparam int P_W = 2 * W;
+
+  logic [3*W-1:0] a, b;
+  logic [3*P_W-1:0] product_q3;
+  assign a = {az_i, ay_i, ax_i};
+  assign b = {bz_i, by_i, bx_i};
+  for (genvar c = 0; c < 3; c++) begin : g_component
+    logic signed [W-1:0] left_q1, right_q1;
+    if (REFINED) begin : g_chord
+      logic signed [W:0] difference;
+      logic signed [W-1:0] limited;
+      assign difference = (W + 1)'($signed(a[c*W+:W])) - (W + 1)'($signed(b[c*W+:W]));
+      shade_limit #(.WIDTH(W + 1), .OUT_W(W)) u_limit (.x_i(difference), .y_o(limited));
+      always_ff @(posedge clk_i) left_q1 <= limited;
+      assign right_q1 = left_q1;
+    end else begin : g_dot
+      always_ff @(posedge clk_i) begin
+        left_q1  <= a[c*W+:W];
+        right_q1 <= b[c*W+:W];
+      end
+    end
+    shade_mul #(.A_W(W), .B_W(W)) u_mul (
+      .clk_i, .a_i(left_q1), .b_i(right_q1), .p_o(product_q3[c*P_W+:P_W])
+    );
+  end
+
+  // the sum, or 1 less the sum; the refined one is taken as half as large by counting a fraction bit more
+  localparam int SUM_W = P_W + 3;
+  localparam int DROP = P_F + (REFINED ? 1 : 0) - shade_pkg::VERSINE_F;
+  localparam int X_W = SUM_W - DROP;
+  localparam logic signed [SUM_W-1:0] HALF = SUM_W'(1) <<< (DROP - 1);
+  localparam logic signed [SUM_W-1:0] ONE = SUM_W'(1) <<< P_F;
+  logic signed [SUM_W-1:0] x, y, z, xy_q4, z_q4, sum;
+  logic signed [X_W-1:0] x_q5;
+  logic [shade_pkg::VERSINE_W-1:0] clamped;
+  logic outside;
+  assign x   = SUM_W'($signed(product_q3[0+:P_W]));
+  assign y   = SUM_W'($signed(product_q3[P_W+:P_W]));
+  assign z   = SUM_W'($signed(product_q3[2*P_W+:P_W]));
+  assign sum = REFINED ? z_q4 + xy_q4 : z_q4 - xy_q4;
+  shade_clamp #(.WIDTH(X_W), .F(shade_pkg::VERSINE_F + 1)) u_clamp (.x_i(x_q5), .y_o(clamped), .clamped_o(outside));
+  always_ff @(posedge clk_i) begin
+    xy_q4   <= x + y;
+    z_q4    <= REFINED ? HALF + z : HALF + ONE - z;
+    x_q5    <= X_W'(sum >>> DROP);
+    x_o     <= clamped;
+    range_o <= outside;
+  end
+
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_VERSINE)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+endmodule

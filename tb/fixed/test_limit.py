@@ -1,0 +1,25 @@
+"""shade_limit: a signed number into fewer bits, to the bit of golden.fixed.limit."""
+
+import numpy as np
+
+from golden import fixed
+from tb.bench import Bench, checked
+from tb.runner import points, simulate
+
+
+@points({}, {"WIDTH": 9, "OUT_W": 4}, {"WIDTH": 3, "OUT_W": 2})
+def test_cocotb(point):
+    simulate("shade_limit", point)
+
+
+@checked()
+async def values(bench: Bench) -> None:
+    """Every x of up to 10 bits; else the limits, their neighbours, single bits and random ones."""
+    bits, out = bench.bits("x_i"), bench.bits("y_o")
+    if bits <= 10:
+        x = np.arange(-(1 << bits - 1), 1 << bits - 1)
+    else:
+        edges = np.add.outer([0, 1 << out - 1, -(1 << out - 1)], np.arange(-3, 4)).ravel()
+        near = bench.rng.integers(-1 << out, 1 << out, 500)
+        x = np.concatenate([edges, near, 1 << np.arange(bits - 1), bench.signed(bits, 500)])
+    await bench.pipeline({"x_i": x}, {"y_o": fixed.limit(x, out)}, 0)

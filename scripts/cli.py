@@ -36,7 +36,9 @@ def cli() -> None:
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
 @click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
 @click.option("--path", default="poly", help="poly: a polynomial along each span; normals: a unit normal every pixel.")
-@click.option("--evaluator", default="horner", help="Of path poly: horner, a multiplier a step; fdiff, forward differences.")
+@click.option(
+    "--evaluator", default="horner", help="Of path poly: horner, a multiplier a step; fdiff, forward differences."
+)
 @click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
 @click.option("--threshold", default=0.9, help="Of path normals: length below which V1, V2, V4, V5 normalize, 0 to 1.")
 @click.option("--model", default="blinn", help=f"Light: {', '.join(MODELS)}.")

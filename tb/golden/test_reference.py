@@ -61,8 +61,8 @@ def test_channels() -> None:
         both = light.light_channels(model, normals, [1, 2, 3], 20)
         assert both.shape == (4, 5, 2)
         assert np.array_equal(both[..., 0], light.diffuse(normals, [1, 2, 3]))
-        assert np.array_equal(both[..., 1], specular(normals, [1, 2, 3], 20))
-    assert not light.lambert(normals, [1, 2, 3], 20).any()
+        assert np.array_equal(both[..., 1], specular(normals, [1, 2, 3], shininess=20, roughness=0.3))
+    assert not light.lambert(normals, [1, 2, 3]).any()
 
 
 def test_kappa() -> None:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from golden import contract as k
 from golden.fixed import ONE, Int, clamp, integers, round, rsqrt, weigh
+from golden.stream import walk
 
 
 def normalize(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Int, Int, Int]:
@@ -207,9 +208,7 @@ def pixel_normals(
     """
     n, g = integers(n, g)
     count, cosine, variant, threshold = integers(count, cosine, variant, threshold)
-    pixels = np.where(count <= k.PIXELS_MAX, count, 0)
-    line = np.repeat(np.arange(count.size), pixels)
-    j = np.arange(line.size) - np.repeat(np.cumsum(pixels) - pixels, pixels)
+    line, j = walk(np.where(count <= k.PIXELS_MAX, count, 0))
     variant, limit = variant[line], threshold[line]
 
     def exact(i: Int) -> tuple[Int, Int, Int]:

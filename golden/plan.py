@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from golden import contract as k
 from golden.fixed import ONE, Int, clamp, integers, weigh
 from golden.poly import span_log2
+from golden.stream import walk
 
 KAPPA_F = 20
 KAPPA_MAX = (1 << 31) - 1
@@ -81,8 +82,7 @@ def plan(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = 
     direct = kappa >> 2 * (whole - log2) > t3  # at 4 pixels a record, or because the span is that short
     segments = np.maximum(np.where(direct, -(-count >> log2), -(-(count - 1) >> log2)), 1)
 
-    span = np.repeat(np.arange(count.size), segments)
-    index = np.arange(span.size) - np.repeat(np.cumsum(segments) - segments, segments)
+    span, index = walk(segments)
     start = index << log2[span]
     last = index == segments[span] - 1
     pixels = np.where(last, count[span] - start, 1 << log2[span])

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from golden import contract as k
 from golden.fixed import Int, integers, round, saturate, third
+from golden.stream import walk
 
 
 def coef_a(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
@@ -159,9 +160,7 @@ def span_walk(degree: ArrayLike, count: ArrayLike, *, log2_max: int = k.LOG2_MAX
     [[0, 0, 0, 1, 1], [0, 1, 2, 0, 1]]
     """
     degree, count = integers(degree, count)
-    pixels = np.where(span_errors(degree, count, log2_max=log2_max) == 0, count, 0)
-    span = np.repeat(np.arange(count.size), pixels)
-    return span, np.arange(span.size) - np.repeat(np.cumsum(pixels) - pixels, pixels)
+    return walk(np.where(span_errors(degree, count, log2_max=log2_max) == 0, count, 0))
 
 
 def poly_span(

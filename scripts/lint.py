@@ -33,7 +33,7 @@ from sim.errors import UserError
 RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
 # They hand data on unaltered: there is nothing to model.
-CARRIERS = {"shade_delay", "shade_valid", "shade_fifo", "shade_walk"}
+CARRIERS = {"shade_delay", "shade_valid", "shade_fifo"}
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from golden.stream import walk
 from sim.scene.camera import Screen
 
 SUBPIXELS = 256
@@ -107,7 +108,7 @@ def scan_convert(screen: Screen, faces: NDArray[np.int32], size: int, cull: bool
     half = SUBPIXELS // 2
     first = np.clip(-((half - points[..., 1].min(axis=1)) // SUBPIXELS), 0, size)
     last = np.clip((points[..., 1].max(axis=1) - half) // SUBPIXELS, -1, size - 1)
-    t, step = _ragged(np.maximum(last - first + 1, 0))
+    t, step = walk(np.maximum(last - first + 1, 0))
     y = first[t] + step
 
     # E at the line's column 0, less what an edge that does not own its pixels demands: inside means E + x * slope >= 0.
@@ -141,7 +142,7 @@ def scan_convert(screen: Screen, faces: NDArray[np.int32], size: int, cull: bool
 
 def expand(spans: Spans, size: int) -> Pixels:
     """Every pixel of the spans, in stream order."""
-    span, step = _ragged(spans.count)
+    span, step = walk(spans.count)
     first = spans.y.astype(np.int64) * size + spans.x
     return Pixels(span=span, step=step, place=first[span] + step)
 
@@ -159,10 +160,3 @@ def resolve(spans: Spans, size: int) -> Ints:
     visible = np.full(size * size, -1, dtype=np.int64)
     visible[pixels.place[seen]] = seen  # of repeated places NumPy keeps the last: the earliest, since reversed
     return visible
-
-
-def _ragged(count: NDArray[np.integer]) -> tuple[Ints, Ints]:
-    """Index and position of every element of groups of the given sizes: (2, 1) -> (0, 0, 1), (0, 1, 0)."""
-    count = count.astype(np.int64)
-    group = np.repeat(np.arange(len(count)), count)
-    return group, np.arange(len(group)) - np.repeat(np.cumsum(count) - count, count)

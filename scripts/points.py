@@ -91,6 +91,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_poly_span": [{"EVALUATOR": 1}],
     "shade_scale3": [{"FOLD": 3}],
     "shade_versine": [{"FORM": 0}],
+    "yardstick_beckmann": [{"WARD": 1}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }
 

@@ -8,6 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
 FILE_LIST = ROOT / "rtl" / "shade.f"
+YARDSTICKS = ROOT / "scripts" / "yardsticks"
 
 
 def sources() -> list[Path]:
@@ -19,3 +20,8 @@ def sources() -> list[Path]:
 def modules() -> dict[str, Path]:
     """Name and file of every module, in the order of the list: one module a file, named like the file."""
     return {path.stem: path for path in sources() if not path.stem.endswith("_pkg")}
+
+
+def yardsticks() -> dict[str, Path]:
+    """Name and file of the modules that others are measured against; they are no part of the product."""
+    return {path.stem: path for path in sorted(YARDSTICKS.glob("*.sv"))}

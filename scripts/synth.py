@@ -37,12 +37,11 @@ from tqdm import tqdm
 from scripts import tools
 from scripts.points import VARIANTS, Point, label
 from scripts.report import save
-from scripts.sources import BUILD, ROOT, modules, sources
+from scripts.sources import BUILD, modules, sources, yardsticks
 from sim.errors import UserError
 
 OUT = BUILD / "synth.json"
 WORK = BUILD / "synth"
-YARDSTICKS = ROOT / "scripts" / "yardsticks"
 SEEDS = (1, 2, 3)
 NEXTPNR = ["--85k", "--package=CABGA381", "--speed=8", "--freq=200", "--timing-allow-fail", "--out-of-context"]
 
@@ -127,7 +126,7 @@ class Design:
 def designs(names: list[str] | None = None) -> list[Design]:
     """Every design, or those of the named modules; UserError for a name that is none."""
     listed = [(module, sources()) for module in modules()]
-    listed += [(path.stem, [path]) for path in sorted(YARDSTICKS.glob("*.sv"))]
+    listed += [(module, [*sources(), path]) for module, path in yardsticks().items()]
     known = [module for module, _ in listed]
     for name in names or []:
         if name not in known:

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from scripts import tools
 from scripts.points import label
-from scripts.sources import BUILD, modules, sources
+from scripts.sources import BUILD, modules, sources, yardsticks
 from sim.errors import UserError
 
 HERE = Path(__file__).resolve().parent
@@ -52,7 +52,7 @@ class Port:
 
 def reached(module: str) -> list[Path]:
     """The package and the sources of a module and of everything that it instantiates, in the order of the file list."""
-    files = modules()
+    files = modules() | yardsticks()
     if module not in files:
         raise UserError(f"{module}: no such module, allowed {', '.join(files)}")
     names, todo = set(), {module}
@@ -61,7 +61,8 @@ def reached(module: str) -> list[Path]:
         names.add(name)
         text = re.sub(r"//.*", "", files[name].read_text())
         todo |= {word for word in re.findall(r"\bshade_\w+", text) if word in files} - names
-    return [path for path in sources() if path.stem in names or path.stem.endswith("_pkg")]
+    listed = [*sources(), *yardsticks().values()]
+    return [path for path in listed if path.stem in names or path.stem.endswith("_pkg")]
 
 
 def _run(command: list[str | Path], directory: Path) -> None:

@@ -59,6 +59,12 @@ def limit(x: ArrayLike, out_w: int = k.INTENSITY_W) -> Int:
     return np.clip(x, -1 << out_w - 1, (1 << out_w - 1) - 1)
 
 
+def wrap(value: Int, width: int) -> Int:
+    """What a signed register of so many bits makes of a number."""
+    half = 1 << width - 1
+    return ((value + half) & ((1 << width) - 1)) - half
+
+
 def mul(a: ArrayLike, b: ArrayLike) -> Int:
     """a b, exact (``shade_mul``).
 
@@ -141,6 +147,18 @@ def rsqrt_table() -> Int:
         fractions = zip((centre, c1, c2), (k.RSQRT_C0_F, k.RSQRT_C1_F, k.RSQRT_C2_F), strict=True)
         table[i] = [int((c * (1 << f) + Fraction(1, 2)).__floor__()) for c, f in fractions]
     return table
+
+
+def rsqrt_rom(i: ArrayLike) -> Int:
+    """Row i of the table in 51 bits: c0 with the half ulp of the result, c1, c2 (``shade_rsqrt_rom``).
+
+    >>> [hex(row) for row in rsqrt_rom([31, 32])]
+    ['0x0', '0x7f02fb05dbdc6']
+    """
+    (i,) = integers(i)
+    c0, c1, c2 = np.moveaxis(rsqrt_table()[i], -1, 0)
+    upper = c0 + (1 << k.RSQRT_C0_F - k.RSQRT_F - 1) << k.RSQRT_C1_F | c1 & (1 << k.RSQRT_C1_F) - 1
+    return np.where(c0 > 0, upper << k.RSQRT_C2_W | c2, 0)
 
 
 def rsqrt(z: ArrayLike) -> tuple[Int, Int]:

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from golden import contract as k
-from golden.fixed import rsqrt_table
+from golden import fixed
 
 ROOT = Path(__file__).resolve().parent.parent
 HEADER = """\
@@ -44,7 +44,7 @@ def package() -> str:
 ROM_HEADER = """\
 // shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
 //
-// Generated from golden.fixed.rsqrt_table by `python -m scripts.generate`: change it there.
+// Generated from golden.fixed.rsqrt_rom by `python -m scripts.generate`: change it there.
 // row_o = {c0, c1, c2}: c0 U0.22, with the half ulp of the result's rounding; c1 S0.18, negative; c2 U0.12, 11 bits;
 // rows below segment 32 are 0. Block RAM or LUTs, as the tool sees fit (6,528 bits). Latency 1 clock, one row a clock.
 // Example: i = 32 -> c0 = 1/sqrt(1 + 1/64) + 2^-21.
@@ -54,12 +54,8 @@ ROM_HEADER = """\
 def rsqrt_rom() -> str:
     """The text of the table's module."""
     width = k.RSQRT_C0_F + k.RSQRT_C1_F + k.RSQRT_C2_W
-    half = 1 << k.RSQRT_C0_F - k.RSQRT_F - 1
-    rows = []
-    for i, (c0, c1, c2) in enumerate(rsqrt_table().tolist()):
-        if c0:
-            upper = (c0 + half) << k.RSQRT_C1_F | c1 & (1 << k.RSQRT_C1_F) - 1
-            rows.append(f"      {k.RSQRT_INDEX_W}'d{i}: row_o <= {width}'h{upper << k.RSQRT_C2_W | c2:x};")
+    table = fixed.rsqrt_rom(range(1 << k.RSQRT_INDEX_W)).tolist()
+    rows = [f"      {k.RSQRT_INDEX_W}'d{i}: row_o <= {width}'h{row:x};" for i, row in enumerate(table) if row]
     return "\n".join(
         [
             f"{ROM_HEADER}module shade_rsqrt_rom (",

@@ -32,6 +32,7 @@ BOUND = {
     "shade_horner_pipe": 1 / 2 + 3 / 16,
     "shade_horner_seq": 1 / 2 + 3 / 16,
     "shade_fdiff": 1 / 2,
+    "shade_rsqrt_rom": 0,
     "shade_rsqrt": 7 / 8,
     "shade_normalize": 5 / 8,
     "shade_clamp": 0,

@@ -108,7 +108,7 @@ def _weigh(form: str) -> Iterator[Case]:
 
 
 def _root(form: str) -> Iterator[Case]:
-    """Reciprocal square root: arguments of every length, down to one unit."""
+    """Reciprocal square root and its table: arguments of every length, down to one unit."""
     if form != "refined":
         return
 
@@ -122,6 +122,9 @@ def _root(form: str) -> Iterator[Case]:
         exact = np.ldexp(1 / np.sqrt(z), golden["e_o"] + k.RSQRT_F)
         return golden | {"y_o": np.where(i["z_i"] == 0, 0, exact)}
 
+    row = lambda i: {"row_o": fixed.rsqrt_rom(i["i_i"])}  # noqa: E731
+    index = every({"i_i": (0, (1 << k.RSQRT_INDEX_W) - 1)})
+    yield Case("shade_rsqrt_rom", form, {}, row, row, row, None, index, 1, unit_f=0)
     argument = {"z_i": (0, (1 << k.RSQRT_W) - 1)}
     yield Case(
         "shade_rsqrt", form, {}, rsqrt, root, root, shortened(mixed(argument), k.RSQRT_W), None, k.LATENCY_RSQRT,

@@ -39,3 +39,6 @@ rtl/normal/shade_increment.sv
 rtl/normal/shade_pixel_normals.sv
 rtl/light/shade_versine.sv
 rtl/light/shade_reflect.sv
+rtl/light/shade_halfway.sv
+rtl/light/shade_fresnel.sv
+rtl/light/shade_colour.sv

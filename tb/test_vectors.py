@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from golden import contract as k
-from golden import normal
+from golden import light, normal
 from golden.fixed import ONE
 from sim.units import Case, cases, check_pixel_normals, check_poly_span, unit_vectors
 from tb.runner import SEED
@@ -50,11 +50,15 @@ BOUND = {
     "shade_increment": 1 / 2,
     "shade_versine": 1 / 2,
     "shade_reflect": 1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
+    "shade_halfway": 4.25,  # 1/2, and H's 5/8 times the sum of V's components; of unit vectors at most 1.6, see below
+    "shade_fresnel": 1,
+    "shade_colour": 1 / 2,
 }
 NEEDS_FULL = {
     *(name for name in BOUND if name.startswith(("shade_coef", "shade_horner"))),
     *("shade_fdiff", "shade_rsqrt", "shade_normalize", "shade_dot3", "shade_scale3", "shade_bisect", "shade_midpoint"),
     *("shade_node_chain", "shade_criterion", "shade_increment", "shade_versine", "shade_reflect"),
+    *("shade_halfway", "shade_fresnel", "shade_colour"),
 }
 
 
@@ -110,6 +114,17 @@ def test_midpoint_of_every_cosine() -> None:
     assert wrong.max() <= 1.8e-4
     assert (invc[-1], half[-1]) == (1 << k.INVC_F - 1, ONE)
     assert not clamped.any()
+
+
+def test_halfway_of_unit_vectors() -> None:
+    """V.H is within 1.6 ulp; up to 120 degrees between L and V it is, as good as their lengths, |L + V| / 2."""
+    l, v = (unit_vectors(np.random.default_rng([SEED, part]), 1_000_000) for part in range(2))  # noqa: E741
+    *_, vh, zero = light.halfway(*l, *v)
+    s = (l + v).astype(np.longdouble)
+    length = np.sqrt((s * s).sum(axis=0))
+    assert not zero.any()
+    assert np.abs(vh - (v * s).sum(axis=0) / length).max() <= 1.6
+    assert np.abs(vh - length / 2)[length >= ONE].max() <= 3.4
 
 
 def test_midpoint_of_equal_normals() -> None:

@@ -1,4 +1,4 @@
-"""Light at a node: angles, reflected light."""
+"""Light at a node: angles, directions, Fresnel's factor, colours."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from golden import contract as k
 from golden import light
-from sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, signed_range
+from sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, mixed, signed_range
 from sim.units.normal import ends
 
 LIMITS = signed_range(k.INTENSITY_W)
@@ -49,22 +49,83 @@ def _versine(form: str) -> Iterator[Case]:
 
 
 def _directions(form: str) -> Iterator[Case]:
-    """The mirrored direction of light."""
+    """Where a mirror sends light, and the direction halfway between light and viewer."""
     if form != "refined":
         return
 
     def reflected(i: Arrays) -> Arrays:
         return dict(zip(("x_o", "y_o", "z_o"), light.reflect(*i.values()), strict=True))
 
-    def exact(i: Arrays) -> Arrays:
+    def mirror(i: Arrays) -> Arrays:
         n, l = _two(i)  # noqa: E741
         twice = 2 * (n * l).sum(axis=0)
         r = (twice.clip(-LIMITS[1] / ONE, 2) * n - l) * ONE
         return dict(zip(("x_o", "y_o", "z_o"), r.clip(*LIMITS), strict=True))
 
-    yield Case("shade_reflect", form, {}, reflected, exact, exact, ends("nl"), None, k.LATENCY_REFLECT)
+    yield Case("shade_reflect", form, {}, reflected, mirror, mirror, ends("nl"), None, k.LATENCY_REFLECT)
+
+    def golden(i: Arrays) -> Arrays:
+        return dict(zip(("hx_o", "hy_o", "hz_o", "vh_o", "zero_o"), light.halfway(*i.values()), strict=True))
+
+    def halfway(i: Arrays) -> Arrays:
+        l, v = _two(i)  # noqa: E741
+        s = ((l + v) * ONE).clip(*LIMITS)
+        length = np.sqrt((s * s).sum(axis=0))
+        h = s / np.where(length == 0, 1, length)
+        values = (*(h * ONE), ((v * h).sum(axis=0) * ONE).clip(0, ONE))
+        return golden(i) | dict(zip(("hx_o", "hy_o", "hz_o", "vh_o"), values, strict=True))
+
+    yield Case("shade_halfway", form, {}, golden, halfway, halfway, ends("lv"), None, k.LATENCY_HALFWAY)
+
+
+def _fresnel(form: str) -> Iterator[Case]:
+    """Fresnel's factor: any pair, and every cosine for sixteen materials."""
+    if form != "refined":
+        return
+
+    def golden(i: Arrays) -> Arrays:
+        return {"f_o": light.fresnel(i["c_i"], i["f0_i"])}
+
+    def exact(i: Arrays) -> Arrays:
+        c, f0 = (np.minimum(i[name].astype(Real) / ONE, 1) for name in ("c_i", "f0_i"))
+        return {"f_o": (f0 + (1 - f0) * (1 - c) ** 5) * ONE}
+
+    def materials() -> Iterator[Arrays]:
+        for inputs in every({"c_i": (0, 2 * ONE - 1), "f0_i": (0, 15)})():
+            yield inputs | {"f0_i": inputs["f0_i"] ** 4 * ONE // 15**4}
+
+    ranges = dict.fromkeys(("c_i", "f0_i"), (0, ONE + 16))
+    for vectors, everything in ((mixed(ranges, ONE - 1, ONE, ONE + 1), None), (None, materials)):
+        yield Case("shade_fresnel", form, {}, golden, exact, exact, vectors, everything, k.LATENCY_FRESNEL)
+
+
+def _colour(form: str) -> Iterator[Case]:
+    """Weighted light of a pixel."""
+    if form != "refined":
+        return
+    names = [f"{name}_{c}_i" for name in ("ambient", "kd", "ks") for c in "rgb"]
+
+    def terms(i: Arrays) -> list[np.ndarray]:
+        return [i["diffuse_i"], i["specular_i"], *np.stack([i[name] for name in names]).reshape(3, 3, -1)]
+
+    def golden(i: Arrays) -> Arrays:
+        return dict(zip(("r_o", "g_o", "b_o"), light.colour(*terms(i)), strict=True))
+
+    def exact(i: Arrays) -> Arrays:
+        diffuse, specular, *weights = terms(i)
+        ambient, kd, ks = (weight.astype(Real) / ONE for weight in weights)
+        sums = ambient * ONE + kd * diffuse.clip(0) + ks * specular.clip(0)
+        return dict(zip(("r_o", "g_o", "b_o"), sums.clip(0, ONE - 1), strict=True))
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        lights = mixed(dict.fromkeys(("diffuse_i", "specular_i"), LIMITS), ONE, -ONE)(rng, rows)
+        weights = mixed(dict.fromkeys(names, (0, 2 * ONE - 1)), ONE)(rng, rows)
+        darker = rng.integers(0, 4, rows)  # fewer sums that saturate
+        return lights | {name: value >> darker for name, value in weights.items()}
+
+    yield Case("shade_colour", form, {}, golden, exact, exact, vectors, None, k.LATENCY_COLOUR, unit_f=k.PIXEL_W)
 
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/light``."""
-    return in_forms(_versine, _directions)
+    return in_forms(_versine, _directions, _fresnel, _colour)

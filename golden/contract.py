@@ -83,6 +83,14 @@ LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 7
 LOBE_F = 22  # 1 - base and its powers, U1.22
 GAIN_F = 16  # mantissa of the gain, U1.16 in [1, 2), or 0
 GAIN_EXP_W = 6  # exponent of the gain, -32 .. 31
+INV_EXP_W = 4  # 1/n = inv_n 2^-e, inv_n U1.16 in (1/2, 1], e 0 .. 10
+FACTOR_F = 18  # w, S0.18 in [-1/2, 0]: a factor 1 + w
+FACTOR_EXP_W = 7  # its exponent, -15 .. 33
+LIGHT_MODEL = 0  # bits of a node's flags: a reserved model, or one that the parameters leave out
+LIGHT_RANGE = 1  # a cosine outside [-1, 1]
+LIGHT_ZERO = 2  # a denominator of 0
+LIGHT_SATURATED = 3  # diffuse or specular light too large
+LIGHT_FLAGS_W = 4
 FRESNEL_F = 18  # fraction bits of the powers of 1 - c
 
 # ---- spans -----------------------------------------------------------------------------------------------------
@@ -95,6 +103,9 @@ TAG_W = 16
 PIXELS_MAX = 1 << LOG2_MAX
 DIRECT_MAX = NODE_COUNT  # pixels of a span in direct mode
 NORMAL_FIFO_LOG2 = 6  # normals that shade_pixel_normals can hold back: more than its latency
+NODE_F = 15  # interpolated normals at the nodes, S2.15: before normalizing they may be longer than 1
+SPAN_FIFO_LOG2 = 5  # spans that wait for the walk along their nodes: more than the planner's latency
+RECORD_FIFO_LOG2 = 7  # records that wait for shade_poly_span: more than the latency from a node to its light
 FIFO_LOG2 = 5  # pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 
 # ---- lines of normals ------------------------------------------------------------------------------------------
@@ -119,6 +130,7 @@ LINE_DATA_W = 256  # words of 32 bits: normal x, y, z and increment x, y, z, S2.
 LINE_COUNT_LSB = 192  # normals of the line
 LINE_TAG_LSB = 208
 LINE_COS_LSB = 224  # cosine between the line's end normals, S1.16, for d1a
+LINE_FLAT_LSB = 242  # the triangle passed P2's criterion: its normals need no normalizing in diffuse light
 NORMAL_DATA_W = 64  # x, y, z, S1.16, at bit 0, 18, 36
 PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
 
@@ -150,7 +162,10 @@ LATENCY_VERSINE = 1 + LATENCY_MUL + 3  # differences, squares, two adders, clamp
 LATENCY_REFLECT = LATENCY_DOT3 + 2 + LATENCY_MUL + 2  # N.L, its sign and range, products, difference, range
 LATENCY_HALFWAY = 1 + LATENCY_NORMALIZE + LATENCY_DOT3 + 1  # sum, H, V.H, clamp
 LATENCY_FRESNEL = 1 + 4 * (LATENCY_MUL + 1)  # u = 1 - c, u^2, u^4, u^5, the blend
+LATENCY_GEOMETRY = 1 + 2 * (LATENCY_MUL + 1) + LATENCY_RSQRT + 1 + LATENCY_MUL + 2  # see shade_geometry
+LATENCY_GAIN = 3 * LATENCY_MUL + 3  # products, two shifter levels, rounding
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
+LATENCY_NODE_WALK = 3  # the next run's step, the run, the rounding
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 

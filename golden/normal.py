@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from golden import contract as k
-from golden.fixed import ONE, Int, clamp, integers, round, rsqrt, weigh
+from golden.fixed import ONE, Int, clamp, integers, round, rsqrt, weigh, wrap
 from golden.stream import walk
 
 
@@ -184,13 +184,7 @@ def increment_sum(first: ArrayLike, line: ArrayLike, n: ArrayLike, g: ArrayLike,
     lines = np.cumsum(np.where(line & ~first, l, 0))
     pixels = np.cumsum(np.where(first | line, 0, g))
     position = n[triangle] + (lines - lines[triangle]) + (pixels - pixels[start])
-    return _wrap(position, k.STEP_W)
-
-
-def _wrap(value: Int, width: int) -> Int:
-    """What a signed register of so many bits makes of a number."""
-    half = 1 << width - 1
-    return ((value + half) & ((1 << width) - 1)) - half
+    return wrap(position, k.STEP_W)
 
 
 def pixel_normals(
@@ -212,8 +206,8 @@ def pixel_normals(
     variant, limit = variant[line], threshold[line]
 
     def exact(i: Int) -> tuple[Int, Int, Int]:
-        vector = _wrap(n[line] + i[:, None] * g[line], k.STEP_W)
-        return normalize(*np.moveaxis(_wrap(round(vector, k.STEP_F - k.INTENSITY_F), k.INTENSITY_W), -1, 0))
+        vector = wrap(n[line] + i[:, None] * g[line], k.STEP_W)
+        return normalize(*np.moveaxis(wrap(round(vector, k.STEP_F - k.INTENSITY_F), k.INTENSITY_W), -1, 0))
 
     middle = (j % 2 == 1) & (j < count[line] - 1) & (variant != k.VARIANT_EXACT)
     a, b = exact(j - middle), exact(j + middle)

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from golden import contract as k
-from golden.fixed import ONE, Int, clamp, integers, weigh
+from golden.fixed import ONE, Int, clamp, integers, round, weigh, wrap
 from golden.poly import span_log2
 from golden.stream import walk
 
@@ -134,3 +134,49 @@ def criterion(
         weights = (3 * k.ETA1_0, k.ETA1_C, first)
     eta = weigh(*weights, f=k.SQUARE_F, out_f=k.ETA_F)
     return eta, (eta > threshold).astype(np.int64), flags[0] | flags[1] | flags[2], threshold_error
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Where light is to be computed: arrays (T,), in the order in which ``shade_node_walk`` gives them.
+
+    ``vector`` (T, 3) S2.15: the interpolated normal, not of unit length. ``slot``: number of the node in its record;
+    ``shared``: first of a record whose slot 0 is the last node of the record before. ``record`` numbers the records.
+    """
+
+    vector: Int
+    slot: Int
+    shared: Int
+    record: Int
+    span: Int  # (R,) of every record, as are:
+    count: Int
+    degree: Int
+    more: Int  # the span goes on behind this record
+
+
+def node_walk(n: ArrayLike, g: ArrayLike, main, log2, degree, last_count, last_log2, last_degree) -> Nodes:
+    """The nodes of planned spans, (S,) each; ``n``, ``g`` (S, 3) S2.29 (``shade_node_walk``).
+
+    N(j) = N + j G, rounded to S2.15, to nearest, ties up, saturated. Words of 32 bits wrap, as in the RTL.
+
+    >>> walked = node_walk([[0, 0, 1 << 29]], [[1 << 14, 0, 0]], [0], [2], [3], [5], [2], [3])
+    >>> walked.slot.tolist(), walked.vector[:, 0].tolist()
+    ([0, 1, 2, 3], [0, 1, 2, 4])
+    """
+    n, g = integers(n, g)
+    main, log2, degree, last_count, last_log2, last_degree = integers(
+        main, log2, degree, last_count, last_log2, last_degree
+    )
+    span, index = walk(main + 1)
+    last = index == main[span]
+    kind = np.where(last, last_degree[span], degree[span])
+    length = np.where(last, last_log2[span], log2[span])
+    count = np.where(last, last_count[span], np.int64(1) << log2[span])
+    continued = (index > 0) & (degree[span] != k.DEGREE_DIRECT)
+    record, node = walk(np.where(kind == k.DEGREE_DIRECT, count, kind + 1) - continued)
+    slot = node + continued[record]
+    steps = np.where(kind[record] == k.DEGREE_DIRECT, slot, (QUARTERS[kind[record], slot & 3] << length[record]) >> 2)
+    at, owner = (index << log2[span])[record] + steps, span[record]
+    vector = wrap(n[owner] + at[:, None] * g[owner], k.STEP_W)
+    rounded = np.minimum(round(vector, k.STEP_F - k.NODE_F), (1 << k.INTENSITY_W - 1) - 1)
+    return Nodes(rounded, slot, (continued[record] & (node == 0)).astype(np.int64), record, span, count, kind, 1 - last)

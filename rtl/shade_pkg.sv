@@ -100,6 +100,14 @@ package shade_pkg;
   localparam int LOBE_F = 22;  // 1 - base and its powers, U1.22
   localparam int GAIN_F = 16;  // mantissa of the gain, U1.16 in [1, 2), or 0
   localparam int GAIN_EXP_W = 6;  // exponent of the gain, -32 .. 31
+  localparam int INV_EXP_W = 4;  // 1/n = inv_n 2^-e, inv_n U1.16 in (1/2, 1], e 0 .. 10
+  localparam int FACTOR_F = 18;  // w, S0.18 in [-1/2, 0]: a factor 1 + w
+  localparam int FACTOR_EXP_W = 7;  // its exponent, -15 .. 33
+  localparam int LIGHT_MODEL = 0;  // bits of a node's flags: a reserved model, or one that the parameters leave out
+  localparam int LIGHT_RANGE = 1;  // a cosine outside [-1, 1]
+  localparam int LIGHT_ZERO = 2;  // a denominator of 0
+  localparam int LIGHT_SATURATED = 3;  // diffuse or specular light too large
+  localparam int LIGHT_FLAGS_W = 4;
   localparam int FRESNEL_F = 18;  // fraction bits of the powers of 1 - c
 
   // spans
@@ -112,6 +120,9 @@ package shade_pkg;
   localparam int PIXELS_MAX = 4096;
   localparam int DIRECT_MAX = 4;  // pixels of a span in direct mode
   localparam int NORMAL_FIFO_LOG2 = 6;  // normals that shade_pixel_normals can hold back: more than its latency
+  localparam int NODE_F = 15;  // interpolated normals at the nodes, S2.15: before normalizing they may be longer than 1
+  localparam int SPAN_FIFO_LOG2 = 5;  // spans that wait for the walk along their nodes: more than the planner's latency
+  localparam int RECORD_FIFO_LOG2 = 7;  // records that wait for shade_poly_span: more than the latency from a node to its light
   localparam int FIFO_LOG2 = 5;  // pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 
   // lines of normals
@@ -136,6 +147,7 @@ package shade_pkg;
   localparam int LINE_COUNT_LSB = 192;  // normals of the line
   localparam int LINE_TAG_LSB = 208;
   localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
+  localparam int LINE_FLAT_LSB = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
 
@@ -167,7 +179,10 @@ package shade_pkg;
   localparam int LATENCY_REFLECT = 10;  // N.L, its sign and range, products, difference, range
   localparam int LATENCY_HALFWAY = 25;  // sum, H, V.H, clamp
   localparam int LATENCY_FRESNEL = 13;  // u = 1 - c, u^2, u^4, u^5, the blend
+  localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
+  localparam int LATENCY_GAIN = 9;  // products, two shifter levels, rounding
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
+  localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
 

@@ -1,0 +1,192 @@
+// shade_node_walk: a planned span in, the interpolated normals at the nodes of its records out, one a clock.
+//
+//   N(j) = N + j G        j pixels from the span's start: by adders, as every step is a power of two of pixels
+//
+// A span is MAIN records of 2^log2 pixels and a last one. A record of degree 1, 2, 3 has its nodes at its quarters
+// {0, 4}, {0, 2, 4}, {0, 1, 2, 4}; one of degree 0 (direct) has its pixels. A record that follows one of degree >= 1 starts
+// where that ends: the node is shared (shared_o) and does not come again.
+//
+//   n_i, g_i           S2.29 each component (x in the low word): normal of the first pixel, increment per pixel
+//   main_i .. last_degree_i  as shade_planner gives them;  flat_i  the span's normals need no normalizing
+//   valid_i, ready_o   a span is taken when both are 1; its two kinds of records follow each other without a bubble
+//   credit_i           gives one credit back; 2^CREDIT_LOG2 are there after reset, a record costs one
+//   x_o .. z_o         S2.15, the normal at a node, to nearest, ties up, saturated; not of unit length
+//   slot_o             number of the node in its record; first_o, last_o frame the nodes of a record that come
+//   count_o, degree_o  of the record; more_o: the span goes on behind it; flat_o, tag_o: the span's
+//
+// Latency from a span taken to its first node LATENCY_NODE_WALK = 3 clocks, one node a clock.
+// Example: 5 pixels, one record of degree 3: nodes at pixels 0, 1, 2, 4 in slots 0, 1, 2, 3.
+// Source: P4 (one increment for all lines of a triangle), P1, section IV (nodes).
+module shade_node_walk #(
+  parameter int CREDIT_LOG2 = shade_pkg::RECORD_FIFO_LOG2
+) (
+  input  logic                               clk_i,
+  input  logic                               rst_i,
+  input  logic                               valid_i,
+  output logic                               ready_o,
+  input  logic [     3*shade_pkg::STEP_W-1:0] n_i,
+  input  logic [     3*shade_pkg::STEP_W-1:0] g_i,
+  input  logic [      shade_pkg::COUNT_W-1:0] main_i,
+  input  logic [                         3:0] log2_i,
+  input  logic [     shade_pkg::DEGREE_W-1:0] degree_i,
+  input  logic [      shade_pkg::COUNT_W-1:0] last_count_i,
+  input  logic [                         3:0] last_log2_i,
+  input  logic [     shade_pkg::DEGREE_W-1:0] last_degree_i,
+  input  logic                               flat_i,
+  input  logic [        shade_pkg::TAG_W-1:0] tag_i,
+  input  logic                               credit_i,
+  output logic                               valid_o,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] x_o,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] y_o,
+  output logic signed [shade_pkg::INTENSITY_W-1:0] z_o,
+  output logic [                         1:0] slot_o,
+  output logic                               first_o,
+  output logic                               shared_o,
+  output logic                               last_o,
+  output logic [      shade_pkg::COUNT_W-1:0] count_o,
+  output logic [     shade_pkg::DEGREE_W-1:0] degree_o,
+  output logic                               more_o,
+  output logic                               flat_o,
+  output logic [        shade_pkg::TAG_W-1:0] tag_o
+);
+  if (CREDIT_LOG2 < 1) begin : g_check
+    $error("shade_node_walk: CREDIT_LOG2 must be at least 1");
+  end
+
+  localparam int STEP_W = shade_pkg::STEP_W;
+  localparam int COUNT_W = shade_pkg::COUNT_W;
+  localparam int W = shade_pkg::INTENSITY_W;
+  localparam int DEGREE_W = shade_pkg::DEGREE_W;
+  localparam int TAG_W = shade_pkg::TAG_W;
+  localparam logic [COUNT_W-1:0] ONE = COUNT_W'(1);
+
+  // ---- the next run: the main records, or the last one, with its step (a quarter, a half or all of a record) --------
+  logic main, take, next_valid_q, load;
+  logic main_done_q;
+  logic [3:0] run_log2, step_log2;
+  logic [DEGREE_W-1:0] run_degree;
+  assign main       = main_i != '0 && !main_done_q;
+  assign run_degree = main ? degree_i : last_degree_i;
+  assign run_log2   = main ? log2_i : last_log2_i;
+  always_comb begin
+    case (run_degree)
+      2'd1:    step_log2 = run_log2;
+      2'd2:    step_log2 = run_log2 - 4'd1;
+      2'd3:    step_log2 = run_log2 - 4'd2;
+      default: step_log2 = '0;
+    endcase
+  end
+  assign take    = valid_i && (!next_valid_q || load);
+  assign ready_o = !main && (!next_valid_q || load);
+
+  logic next_fresh_q, next_shared_q, next_more_q, next_flat_q;
+  logic [3*STEP_W-1:0] next_n_q, next_step_q;
+  logic [COUNT_W-1:0] next_records_q, next_count_q;
+  logic [DEGREE_W-1:0] next_degree_q;
+  logic [TAG_W-1:0] next_tag_q;
+  always_ff @(posedge clk_i) begin
+    if (take) begin
+      next_fresh_q   <= !main_done_q;
+      next_shared_q  <= main_done_q && degree_i != '0;
+      next_more_q    <= main;
+      next_flat_q    <= flat_i;
+      next_n_q       <= n_i;
+      for (int c = 0; c < 3; c++) next_step_q[c*STEP_W+:STEP_W] <= g_i[c*STEP_W+:STEP_W] << step_log2;
+      next_records_q <= main ? main_i : ONE;
+      next_count_q   <= main ? ONE << log2_i : last_count_i;
+      next_degree_q  <= run_degree;
+      next_tag_q     <= tag_i;
+    end
+    if (take) main_done_q <= main;
+    if (take) next_valid_q <= 1'b1;
+    else if (load) next_valid_q <= 1'b0;
+    if (rst_i) begin
+      main_done_q  <= 1'b0;
+      next_valid_q <= 1'b0;
+    end
+  end
+
+  // ---- the run in work ---------------------------------------------------------------------------------------
+  logic busy_q, first_q, shared_q, more_q, flat_q, some_credit_q;
+  logic issue, end_record, end_run;
+  logic [1:0] slot_q, last_slot_q;
+  logic [3*STEP_W-1:0] node_q, step_q;
+  logic [COUNT_W-1:0] records_q, count_q;
+  logic [DEGREE_W-1:0] degree_q;
+  logic [TAG_W-1:0] tag_q;
+  logic [CREDIT_LOG2:0] credit_q, credit_d;
+  logic far;  // the next node of a cubic lies half a record away
+  assign issue      = busy_q && (!first_q || some_credit_q);
+  assign end_record = slot_q == last_slot_q;
+  assign end_run    = end_record && records_q == ONE;
+  assign load       = next_valid_q && (!busy_q || (issue && end_run));
+  assign far        = degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;
+  assign credit_d   = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(issue && first_q);
+
+  for (genvar c = 0; c < 3; c++) begin : g_component
+    logic [STEP_W-1:0] node, step;
+    assign node = node_q[c*STEP_W+:STEP_W];
+    assign step = load ? next_step_q[c*STEP_W+:STEP_W] : step_q[c*STEP_W+:STEP_W] << far;
+    always_ff @(posedge clk_i) begin
+      if (load) node_q[c*STEP_W+:STEP_W] <= next_fresh_q ? next_n_q[c*STEP_W+:STEP_W] : node + step;
+      else if (issue && !end_run) node_q[c*STEP_W+:STEP_W] <= node + step;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (load) begin
+      first_q     <= 1'b1;
+      shared_q    <= next_shared_q;
+      slot_q      <= {1'b0, next_shared_q};
+      last_slot_q <= next_degree_q == '0 ? 2'(next_count_q - ONE) : next_degree_q;
+      records_q   <= next_records_q;
+      count_q     <= next_count_q;
+      degree_q    <= next_degree_q;
+      step_q      <= next_step_q;
+      more_q      <= next_more_q;
+      flat_q      <= next_flat_q;
+      tag_q       <= next_tag_q;
+    end else if (issue) begin
+      first_q <= end_record;
+      if (end_record) begin
+        shared_q  <= degree_q != '0;
+        slot_q    <= {1'b0, degree_q != '0};
+        records_q <= records_q - ONE;
+      end else begin
+        slot_q <= slot_q + 2'd1;
+      end
+    end
+    if (load) busy_q <= 1'b1;
+    else if (issue && end_run) busy_q <= 1'b0;
+    credit_q      <= credit_d;
+    some_credit_q <= credit_d != '0;
+    if (rst_i) begin
+      busy_q        <= 1'b0;
+      credit_q      <= (CREDIT_LOG2 + 1)'(1 << CREDIT_LOG2);
+      some_credit_q <= 1'b1;
+    end
+  end
+
+  // ---- a node goes out ---------------------------------------------------------------------------------------
+  localparam int DROP = shade_pkg::STEP_F - shade_pkg::NODE_F;
+  logic [3*W-1:0] rounded;
+  for (genvar c = 0; c < 3; c++) begin : g_round
+    logic [W:0] sum;
+    assign sum = {node_q[c*STEP_W+STEP_W-1], node_q[c*STEP_W+DROP+:W]} + (W + 1)'(node_q[c*STEP_W+DROP-1]);
+    assign rounded[c*W+:W] = sum[W] == sum[W-1] ? sum[W-1:0] : {1'b0, {(W - 1) {1'b1}}};  // only upwards
+  end
+  always_ff @(posedge clk_i) begin
+    {z_o, y_o, x_o} <= rounded;
+    slot_o          <= slot_q;
+    first_o         <= first_q;
+    shared_o        <= shared_q && first_q;
+    last_o          <= end_record;
+    count_o         <= count_q;
+    degree_o        <= degree_q;
+    more_o          <= more_q;
+    flat_o          <= flat_q;
+    tag_o           <= tag_q;
+    valid_o         <= issue;
+    if (rst_i) valid_o <= 1'b0;
+  end
+endmodule

@@ -79,8 +79,12 @@ LOBE_K1_W = 21
 LOBE_K2_F = 17  # k2 of the shifted x, S0.17
 LOBE_K2_W = 18
 LOBE_X_F = 16  # the shifted x and xmax, U1.16
-LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 7
+LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 6
+LOBE_FINE = 7  # this shift means: x as it is, k1 and k2 times 4
+LOBE_FINE_F = 2  # that 4 is 2^2
+LOBE_S_F = 17  # k1 - k2 x of the shifted x, U1.17
 LOBE_F = 22  # 1 - base and its powers, U1.22
+LOBE_Z_F = 18  # what is squared, S-1.18 with the last bit set
 GAIN_F = 16  # mantissa of the gain, U1.16 in [1, 2), or 0
 GAIN_EXP_W = 6  # exponent of the gain, -32 .. 31
 INV_EXP_W = 4  # 1/n = inv_n 2^-e, inv_n U1.16 in (1/2, 1], e 0 .. 10
@@ -136,6 +140,7 @@ PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the hi
 
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
 LATENCY_MUL = 2  # partial products, their sum
+LATENCY_SQUARE_FABRIC = 4  # a tree of adders
 LATENCY_THIRD = 5  # four adders, one rounding
 LATENCY_COEF = 3 + LATENCY_THIRD + 1  # differences, two levels of adders, x/3, sum with what is not divided
 LATENCY_HORNER_STEP = LATENCY_MUL + 1  # product, sum with the next coefficient
@@ -164,6 +169,10 @@ LATENCY_HALFWAY = 1 + LATENCY_NORMALIZE + LATENCY_DOT3 + 1  # sum, H, V.H, clamp
 LATENCY_FRESNEL = 1 + 4 * (LATENCY_MUL + 1)  # u = 1 - c, u^2, u^4, u^5, the blend
 LATENCY_GEOMETRY = 1 + 2 * (LATENCY_MUL + 1) + LATENCY_RSQRT + 1 + LATENCY_MUL + 2  # see shade_geometry
 LATENCY_GAIN = 3 * LATENCY_MUL + 3  # products, two shifter levels, rounding
+LATENCY_LOBE_BASE = 3 + 2 * (LATENCY_MUL + 2)  # the shifted x; two products, each with a sum and its range
+LATENCY_LOBE_POWER = LATENCY_MUL + 2  # square, difference, choice of the half
+LATENCY_LOBE = LATENCY_LOBE_BASE + 2 * LATENCY_LOBE_POWER + 2 * (LATENCY_SQUARE_FABRIC + 2)  # POWER = 4
+LATENCY_LOBE_FOLDED = 3 + 6 * (LATENCY_MUL + 3)  # POWER = 4: the shifted x, six turns of the multiplier
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
 LATENCY_NODE_WALK = 3  # the next run's step, the run, the rounding
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO

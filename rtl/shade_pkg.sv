@@ -96,8 +96,12 @@ package shade_pkg;
   localparam int LOBE_K2_F = 17;  // k2 of the shifted x, S0.17
   localparam int LOBE_K2_W = 18;
   localparam int LOBE_X_F = 16;  // the shifted x and xmax, U1.16
-  localparam int LOBE_SHIFT_W = 3;  // x is shifted left by 0 .. 7
+  localparam int LOBE_SHIFT_W = 3;  // x is shifted left by 0 .. 6
+  localparam int LOBE_FINE = 7;  // this shift means: x as it is, k1 and k2 times 4
+  localparam int LOBE_FINE_F = 2;  // that 4 is 2^2
+  localparam int LOBE_S_F = 17;  // k1 - k2 x of the shifted x, U1.17
   localparam int LOBE_F = 22;  // 1 - base and its powers, U1.22
+  localparam int LOBE_Z_F = 18;  // what is squared, S-1.18 with the last bit set
   localparam int GAIN_F = 16;  // mantissa of the gain, U1.16 in [1, 2), or 0
   localparam int GAIN_EXP_W = 6;  // exponent of the gain, -32 .. 31
   localparam int INV_EXP_W = 4;  // 1/n = inv_n 2^-e, inv_n U1.16 in (1/2, 1], e 0 .. 10
@@ -153,6 +157,7 @@ package shade_pkg;
 
   // latencies, in clocks from an input taken to the output it causes
   localparam int LATENCY_MUL = 2;  // partial products, their sum
+  localparam int LATENCY_SQUARE_FABRIC = 4;  // a tree of adders
   localparam int LATENCY_THIRD = 5;  // four adders, one rounding
   localparam int LATENCY_COEF = 9;  // differences, two levels of adders, x/3, sum with what is not divided
   localparam int LATENCY_HORNER_STEP = 3;  // product, sum with the next coefficient
@@ -181,6 +186,10 @@ package shade_pkg;
   localparam int LATENCY_FRESNEL = 13;  // u = 1 - c, u^2, u^4, u^5, the blend
   localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
   localparam int LATENCY_GAIN = 9;  // products, two shifter levels, rounding
+  localparam int LATENCY_LOBE_BASE = 11;  // the shifted x; two products, each with a sum and its range
+  localparam int LATENCY_LOBE_POWER = 4;  // square, difference, choice of the half
+  localparam int LATENCY_LOBE = 31;  // POWER = 4
+  localparam int LATENCY_LOBE_FOLDED = 33;  // POWER = 4: the shifted x, six turns of the multiplier
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO

@@ -2,7 +2,7 @@
 //
 //   N(j) = N + j G        j pixels from the span's start: by adders, as every step is a power of two of pixels
 //
-// A span is MAIN records of 2^log2 pixels and a last one. A record of degree 1, 2, 3 has its nodes at its quarters
+// A span is main_i records of 2^log2 pixels and a last one (direct if those are). A record of degree 1, 2, 3 has its nodes at its quarters
 // {0, 4}, {0, 2, 4}, {0, 1, 2, 4}; one of degree 0 (direct) has its pixels. A record that follows one of degree >= 1 starts
 // where that ends: the node is shared (shared_o) and does not come again.
 //

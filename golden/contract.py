@@ -112,6 +112,14 @@ SPAN_FIFO_LOG2 = 5  # spans that wait for the walk along their nodes: more than 
 RECORD_FIFO_LOG2 = 7  # records that wait for shade_poly_span: more than the latency from a node to its light
 FIFO_LOG2 = 5  # pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 
+# ---- planner ---------------------------------------------------------------------------------------------------
+KAPPA_F = 20  # kappa and its thresholds, U11.20
+KAPPA_W = 31
+SHARPNESS_F = 16  # mantissa of the sharpness n, U1.16 in [1, 2)
+SHARPNESS_EXP_W = 4  # its exponent, 0 .. 12
+LOG2_W = 4  # the number of an arc's pixels as a power of two
+LOG2_MIN = 2  # nodes at a quarter of a record are pixels: 4 pixels at least
+
 # ---- lines of normals ------------------------------------------------------------------------------------------
 STEP_F = 29  # S2.29: after 4096 increments, each 1/2 ulp wrong, a component is still right to 1/4 ulp of S1.16
 STEP_W = 32
@@ -128,6 +136,7 @@ VARIANT_W = 3
 # ---- packets (AXI4-Stream, one beat each) ----------------------------------------------------------------------
 SPAN_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
 SPAN_COUNT_LSB = 144  # pixels of the span
+SPAN_MORE = 157  # the span goes on in the next record: no end of it after this one
 SPAN_DEGREE_LSB = 158  # 0 direct, 1 linear, 2 quadratic, 3 cubic
 SPAN_TAG_LSB = 160  # given back with every pixel
 LINE_DATA_W = 256  # words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
@@ -150,6 +159,7 @@ LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the roundi
 LATENCY_FIFO = 2  # memory, output register
 LATENCY_RSQRT = 2 + 2 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
 LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
+LATENCY_UNIT = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
 LATENCY_WEIGH = 4  # a tree of adders
 LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders
 LATENCY_HALF = 1 + LATENCY_WEIGH  # the choice of a straight line
@@ -167,13 +177,20 @@ LATENCY_VERSINE = 1 + LATENCY_MUL + 3  # differences, squares, two adders, clamp
 LATENCY_REFLECT = LATENCY_DOT3 + 2 + LATENCY_MUL + 2  # N.L, its sign and range, products, difference, range
 LATENCY_HALFWAY = 1 + LATENCY_NORMALIZE + LATENCY_DOT3 + 1  # sum, H, V.H, clamp
 LATENCY_FRESNEL = 1 + 4 * (LATENCY_MUL + 1)  # u = 1 - c, u^2, u^4, u^5, the blend
-LATENCY_GEOMETRY = 1 + 2 * (LATENCY_MUL + 1) + LATENCY_RSQRT + 1 + LATENCY_MUL + 2  # see shade_geometry
-LATENCY_GAIN = 3 * LATENCY_MUL + 3  # products, two shifter levels, rounding
 LATENCY_LOBE_BASE = 3 + 2 * (LATENCY_MUL + 2)  # the shifted x; two products, each with a sum and its range
 LATENCY_LOBE_POWER = LATENCY_MUL + 2  # square, difference, choice of the half
 LATENCY_LOBE = LATENCY_LOBE_BASE + 2 * LATENCY_LOBE_POWER + 2 * (LATENCY_SQUARE_FABRIC + 2)  # POWER = 4
 LATENCY_LOBE_FOLDED = 3 + 6 * (LATENCY_MUL + 3)  # POWER = 4: the shifted x, six turns of the multiplier
+LATENCY_GEOMETRY = 1 + 2 * (LATENCY_MUL + 1) + LATENCY_RSQRT + 1 + LATENCY_MUL + 2  # see shade_geometry
+LATENCY_GAIN = 3 * LATENCY_MUL + 3  # products, two shifter levels, rounding
+LATENCY_FACTOR = max(LATENCY_LOBE, LATENCY_GEOMETRY)  # the lobe, and what it is multiplied by
+LATENCY_ANGLES = LATENCY_REFLECT + 1 + LATENCY_VERSINE  # R, choice of R, V or N, H
+LATENCY_LIGHT = LATENCY_ANGLES + LATENCY_FACTOR + LATENCY_GAIN
+LATENCY_LIGHT_LOCAL = LATENCY_HALFWAY + 1 + LATENCY_VERSINE + LATENCY_FACTOR + LATENCY_GAIN
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
+LATENCY_KAPPA = 4 + LATENCY_MUL + 2 + LATENCY_MUL + 4  # common shift, squares, sums, product, shift, range
+LATENCY_PLANNER = LATENCY_KAPPA + 14  # see shade_planner
+LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 3  # the next run's step, the run, the rounding
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO

@@ -195,6 +195,28 @@ Registers = Mapping[str, ArrayLike]
 MATERIAL = ("model", "cosine", "k1", "k2", "shift", "xmax", "inv_n", "inv_n_exp", "gain", "gain_exp")
 
 
+def angles(
+    mirror: ArrayLike, n: Vector, l: Vector, v: Vector, h: Vector, form: int = k.FORM_REFINED,  # noqa: E741
+) -> tuple[Int, ...]:  # fmt: skip
+    """(diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range, lost) of unit vectors (``shade_angles``).
+
+    diffuse = n.l, S1.16, saturated; nl, nv, U1.16: n.l, n.v clamped to [0, 1]; x, U2.20: 1 - r.v where ``mirror`` is
+    set, else 1 - n.h (:func:`versine`); ``_range``: 1 for a cosine beyond [-1, 1]; lost: 1 for h = 0.
+
+    >>> z = (0, 0, 65536)
+    >>> [int(i) for i in angles(0, z, z, z, z)]
+    [65536, 65536, 65536, 0, 0, 0, 0, 0, 0]
+    """
+    n, l, v, h = (integers(*vector) for vector in (n, l, v, h))  # noqa: E741
+    nl, nv = dot3(*n, *l), dot3(*n, *v)
+    a = (np.where(mirror, *pair) for pair in zip(reflect(*n, *l), n, strict=True))
+    b = (np.where(mirror, *pair) for pair in zip(v, h, strict=True))
+    x, x_range = versine(*a, *b, form=form)
+    diffuse = limit(nl)
+    flags = (diffuse != nl, np.abs(nl) > ONE, np.abs(nv) > ONE, x_range, (h[0] | h[1] | h[2]) == 0)
+    return diffuse, clamp(nl)[0], clamp(nv)[0], x, *(flag.astype(np.int64) for flag in flags)
+
+
 def reflectance(
     n: Vector, l: Vector, v: Vector, h: Vector, vh: ArrayLike, f: ArrayLike, material: Registers,  # noqa: E741
     form: int = k.FORM_REFINED, phong: int = 1, divide: int = 1,
@@ -216,26 +238,16 @@ def reflectance(
     refused = (code > k.MODEL_WARD) | np.isin(code, left_out)
     code = np.where(refused, k.MODEL_LAMBERT, code)
 
-    nl, nv = dot3(*n, *l), dot3(*n, *v)
-    mirror = code == k.MODEL_PHONG
-    a, b = (
-        [np.where(mirror, *pair) for pair in zip(first, second, strict=True)]
-        for first, second in ((reflect(*n, *l), n), (v, h))
-    )
-    x, outside = versine(*a, *b, form=form)
-    hx, hy, hz = integers(*h)
-    lost = ((hx | hy | hz) == 0) & (code > k.MODEL_PHONG)
-    shape = np.select([lost, code == k.MODEL_SCHLICK], [0, ONE], lobe(x, k1, k2, shift, xmax))
-    factor = geometry(code, x, clamp(nl)[0], clamp(nv)[0], vh, cosine, inv_n, inv_n_exp)
-    specular, saturated = gain(shape, *factor[:3], f, mantissa, exponent)
-
-    diffuse = limit(nl)
-    outside = np.where(code == k.MODEL_LAMBERT, 0, outside) | ((np.abs(nv) > ONE) & (code >= k.MODEL_SCHLICK))
+    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range, lost = angles(code == k.MODEL_PHONG, n, l, v, h, form)
+    lost &= code > k.MODEL_PHONG
+    shape = np.select([lost == 1, code == k.MODEL_SCHLICK], [0, ONE], lobe(x, k1, k2, shift, xmax))
+    num, w, e, zero = geometry(code, x, nl, nv, vh, cosine, inv_n, inv_n_exp)
+    specular, too_bright = gain(shape, num, w, e, f, mantissa, exponent)
     flags = {
         k.LIGHT_MODEL: refused,
-        k.LIGHT_RANGE: outside | (np.abs(nl) > ONE),
-        k.LIGHT_ZERO: factor[3] | lost,
-        k.LIGHT_SATURATED: saturated | (diffuse != nl),
+        k.LIGHT_RANGE: nl_range | (x_range & (code != k.MODEL_LAMBERT)) | (nv_range & (code >= k.MODEL_SCHLICK)),
+        k.LIGHT_ZERO: zero | lost,
+        k.LIGHT_SATURATED: saturated | too_bright,
     }
     return diffuse, specular, sum(flag.astype(np.int64) << bit for bit, flag in flags.items())
 

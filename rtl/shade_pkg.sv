@@ -129,6 +129,14 @@ package shade_pkg;
   localparam int RECORD_FIFO_LOG2 = 7;  // records that wait for shade_poly_span: more than the latency from a node to its light
   localparam int FIFO_LOG2 = 5;  // pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 
+  // planner
+  localparam int KAPPA_F = 20;  // kappa and its thresholds, U11.20
+  localparam int KAPPA_W = 31;
+  localparam int SHARPNESS_F = 16;  // mantissa of the sharpness n, U1.16 in [1, 2)
+  localparam int SHARPNESS_EXP_W = 4;  // its exponent, 0 .. 12
+  localparam int LOG2_W = 4;  // the number of an arc's pixels as a power of two
+  localparam int LOG2_MIN = 2;  // nodes at a quarter of a record are pixels: 4 pixels at least
+
   // lines of normals
   localparam int STEP_F = 29;  // S2.29: after 4096 increments, each 1/2 ulp wrong, a component is still right to 1/4 ulp of S1.16
   localparam int STEP_W = 32;
@@ -145,6 +153,7 @@ package shade_pkg;
   // packets (AXI4-Stream, one beat each)
   localparam int SPAN_DATA_W = 192;  // node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
   localparam int SPAN_COUNT_LSB = 144;  // pixels of the span
+  localparam int SPAN_MORE = 157;  // the span goes on in the next record: no end of it after this one
   localparam int SPAN_DEGREE_LSB = 158;  // 0 direct, 1 linear, 2 quadratic, 3 cubic
   localparam int SPAN_TAG_LSB = 160;  // given back with every pixel
   localparam int LINE_DATA_W = 256;  // words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
@@ -167,6 +176,7 @@ package shade_pkg;
   localparam int LATENCY_FIFO = 2;  // memory, output register
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
+  localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
   localparam int LATENCY_HALF = 5;  // the choice of a straight line
@@ -184,13 +194,20 @@ package shade_pkg;
   localparam int LATENCY_REFLECT = 10;  // N.L, its sign and range, products, difference, range
   localparam int LATENCY_HALFWAY = 25;  // sum, H, V.H, clamp
   localparam int LATENCY_FRESNEL = 13;  // u = 1 - c, u^2, u^4, u^5, the blend
-  localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
-  localparam int LATENCY_GAIN = 9;  // products, two shifter levels, rounding
   localparam int LATENCY_LOBE_BASE = 11;  // the shifted x; two products, each with a sum and its range
   localparam int LATENCY_LOBE_POWER = 4;  // square, difference, choice of the half
   localparam int LATENCY_LOBE = 31;  // POWER = 4
   localparam int LATENCY_LOBE_FOLDED = 33;  // POWER = 4: the shifted x, six turns of the multiplier
+  localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
+  localparam int LATENCY_GAIN = 9;  // products, two shifter levels, rounding
+  localparam int LATENCY_FACTOR = 31;  // the lobe, and what it is multiplied by
+  localparam int LATENCY_ANGLES = 17;  // R, choice of R, V or N, H
+  localparam int LATENCY_LIGHT = 57;
+  localparam int LATENCY_LIGHT_LOCAL = 72;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
+  localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
+  localparam int LATENCY_PLANNER = 28;  // see shade_planner
+  localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;

@@ -1,0 +1,81 @@
+"""golden.light: angles, directions, Fresnel's factor and colours by hand, in exact fractions."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from golden import contract as k
+from golden import light
+from golden.fixed import ONE
+
+AXES = np.eye(3, dtype=int) * ONE
+TWO = 2 << k.VERSINE_F  # x of opposite vectors
+
+
+def ints(values) -> list[int]:
+    return [int(value) for value in values]
+
+
+@pytest.mark.parametrize(("form", "opposite"), [(k.FORM_REFINED, TWO - 32), (k.FORM_PAPER, TWO)])
+def test_versine_of_axes(form: int, opposite: int) -> None:
+    """0 of equal ones, 1 of perpendicular ones, 2 of opposite ones: less 2^-15 where 2 saturates to 2 - 2^-16."""
+    for i, a in enumerate(AXES):
+        assert ints(light.versine(*a, *a, form=form)) == [0, 0]
+        assert ints(light.versine(*a, *AXES[i - 1], form=form)) == [TWO // 2, 0]
+        assert ints(light.versine(*a, *-a, form=form)) == [opposite, 0]
+
+
+def test_versine_of_lengths_that_are_wrong() -> None:
+    """A vector one ulp too long or too short: the chord sees next to nothing, the dot product all of it, clamped."""
+    for wrong, dot in ((ONE + 1, [0, 1]), (ONE - 1, [16, 0])):
+        assert ints(light.versine(0, 0, ONE, 0, 0, wrong)) == [0, 0]
+        assert ints(light.versine(0, 0, ONE, 0, 0, wrong, form=k.FORM_PAPER)) == dot
+
+
+def test_versine_out_of_range() -> None:
+    for form in (k.FORM_REFINED, k.FORM_PAPER):
+        assert ints(light.versine(*[2 * ONE - 1] * 3, *[-2 * ONE] * 3, form=form)) == [TWO, 1]
+    assert ints(light.versine(*[-2 * ONE] * 6, form=k.FORM_PAPER)) == [0, 1]
+
+
+def test_reflect() -> None:
+    """From the normal, along the surface, from behind; 3-4-5; so long that it saturates."""
+    z = AXES[2]
+    assert ints(light.reflect(*z, *z)) == [0, 0, ONE]
+    assert ints(light.reflect(*z, *AXES[0])) == [-ONE, 0, 0]
+    assert ints(light.reflect(*z, *-z)) == [0, 0, 1 - ONE]  # 2 saturates
+    third, fourth = round(Fraction(3, 5) * ONE), round(Fraction(4, 5) * ONE)
+    assert ints(light.reflect(*z, third, 0, fourth)) == [-third, 0, fourth]
+    most, least = 2 * ONE - 1, -2 * ONE
+    assert ints(light.reflect(most, most, most, least, most, most)) == [most, most, most]
+    assert ints(light.reflect(least, most, most, most, most, most)) == [least, most, most]
+
+
+def test_halfway() -> None:
+    x, _, z = AXES
+    diagonal = round(ONE / np.sqrt(2))
+    assert ints(light.halfway(*z, *z)) == [0, 0, ONE, ONE, 0]
+    assert ints(light.halfway(*x, *z)) == [diagonal, 0, diagonal, diagonal, 0]
+    assert ints(light.halfway(*z, *-z)) == [0, 0, 0, 0, 1]
+    assert ints(light.halfway(1, 0, -ONE, *z)) == [ONE, 0, 0, 0, 0]  # the shortest sum there is
+
+
+def test_fresnel() -> None:
+    """Within 1 ulp of the exact fraction; F0 at c = 1, 1 at c = 0; what is above 1 counts as 1."""
+    for c, f0 in np.random.default_rng(1).integers(0, ONE, (2000, 2), endpoint=True).tolist():
+        exact = f0 + (ONE - f0) * (1 - Fraction(c, ONE)) ** 5
+        assert abs(light.fresnel(c, f0) - exact) < 1
+    f0 = np.arange(0, ONE + 1, 255)
+    assert np.array_equal(light.fresnel([ONE, ONE + 1, 2 * ONE - 1], f0[:, None]), f0[:, None].repeat(3, axis=1))
+    assert np.all(light.fresnel(0, f0) == ONE)
+    assert np.all(light.fresnel([0, 77, ONE], 2 * ONE - 1) == ONE)
+
+
+def test_colour() -> None:
+    """Negative light is none; half an ulp rounds up; the sum saturates."""
+    assert light.colour(-ONE, -1, 1234, ONE, ONE) == 1234
+    assert light.colour(1, 0, 0, [ONE // 2, ONE // 2 - 1], 0).tolist() == [1, 0]
+    assert light.colour(ONE - 2, 1, 0, ONE, ONE) == ONE - 1
+    assert light.colour(ONE - 1, 1, 0, ONE, ONE) == ONE - 1
+    assert light.colour(*[2 * ONE - 1] * 5) == ONE - 1

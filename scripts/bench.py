@@ -23,12 +23,12 @@ from tqdm import tqdm
 import sim
 from golden import contract, poly
 from golden.reference import light
-from scripts import tools
 from scripts.report import save
-from scripts.sources import BUILD
 from sim import frame
 from sim.scene.mesh import load_mesh
 from sim.scene.raster import expand, scan_convert
+from sim.sources import BUILD
+from sim.tools import environment
 from sim.verilate import reached
 
 OUT = BUILD / "bench.json"
@@ -53,7 +53,7 @@ def cocotb_seconds(beats: np.ndarray, pixels: int) -> float:
     WORK.mkdir(parents=True, exist_ok=True)
     np.save(WORK / "spans.npy", beats)
     runner = get_runner("verilator")
-    with mock.patch.dict(os.environ, {**tools.environment(), "BENCH_PIXELS": str(pixels)}):
+    with mock.patch.dict(os.environ, {**environment(), "BENCH_PIXELS": str(pixels)}):
         runner.build(
             sources=reached("shade_poly_span"), hdl_toplevel="shade_poly_span", build_dir=WORK,
             timescale=("1ns", "1ps"), build_args=["-O3", "--x-assign", "fast", "-CFLAGS", "-O2"],

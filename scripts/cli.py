@@ -11,10 +11,10 @@ import click
 from click.core import ParameterSource
 
 from golden.reference.light import MODELS
-from scripts.sources import BUILD
 from sim import SimulationError, frame
 from sim.errors import UserError
 from sim.scene.camera import PROJECTIONS, Camera
+from sim.sources import BUILD
 
 VIEW = Camera()
 PATH_OF = {"degree": "poly", "evaluator": "poly", "variant": "normals", "threshold": "normals"}  # options of one path

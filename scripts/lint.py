@@ -26,9 +26,10 @@ from pathlib import Path
 from tqdm import tqdm
 
 from scripts import tools
-from scripts.points import REFUSED, Point, label, points
-from scripts.sources import BUILD, ROOT, modules, sources
+from scripts.points import REFUSED, points
 from sim.errors import UserError
+from sim.sources import BUILD, ROOT, Point, label, modules, sources
+from sim.tools import environment
 
 RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
@@ -143,7 +144,7 @@ def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
     options = [f"-G{name}={value}" for name, value in point.items()]
     files = ["rtl/lint.vlt", "-f", "rtl/shade.f"]
     command = ["verilator", "--lint-only", "-Wall", "--top-module", module, *options, *files]
-    return subprocess.run(command, cwd=ROOT, env=tools.environment(), capture_output=True, text=True)
+    return subprocess.run(command, cwd=ROOT, env=environment(), capture_output=True, text=True)
 
 
 def _ruff(*arguments: str) -> list[str]:

@@ -22,9 +22,9 @@ from golden import contract as k
 from golden import poly
 from scripts import svg, waves
 from scripts.papers import p1_arithmetic, p1_face
-from scripts.sources import ROOT
 from sim import frame
 from sim.scene.camera import Camera
+from sim.sources import ROOT
 
 DOCS = ROOT / "docs"
 ONE = 1 << k.INTENSITY_F

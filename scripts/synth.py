@@ -35,10 +35,10 @@ from pathlib import Path
 from tqdm import tqdm
 
 from scripts import tools
-from scripts.points import VARIANTS, Point, label
+from scripts.points import VARIANTS
 from scripts.report import save
-from scripts.sources import BUILD, modules, sources, yardsticks
 from sim.errors import UserError
+from sim.sources import BUILD, Point, label, modules, sources, yardsticks
 
 OUT = BUILD / "synth.json"
 WORK = BUILD / "synth"

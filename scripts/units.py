@@ -17,8 +17,8 @@ from tqdm import tqdm
 
 from golden import contract
 from scripts.report import save
-from scripts.sources import BUILD
 from sim.errors import UserError
+from sim.sources import BUILD
 from sim.units import FORMS, Case, Result, cases, check_pixel_normals, check_poly_span
 
 OUT = BUILD / "units.json"

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import sim
-from scripts.sources import BUILD
+from sim.sources import BUILD
 
 RESET_CLOCKS = 3  # that sim spends before clock 0
 SAMPLES_PER_CLOCK = 2  # before and behind the rising edge

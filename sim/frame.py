@@ -24,7 +24,7 @@ import sim
 from golden import contract, plan, poly
 from golden import normal as normals
 from golden.reference import light as reference
-from scripts import tools
+from sim import tools
 from sim.errors import UserError
 from sim.scene.camera import Camera
 from sim.scene.mesh import load_mesh

@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scripts.sources import BUILD
 from sim import verilate
 from sim.errors import UserError
+from sim.sources import BUILD
 from sim.verilate import Port
 
 WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows of uint32, least significant first

@@ -19,10 +19,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts import tools
-from scripts.points import label
-from scripts.sources import BUILD, modules, sources, yardsticks
+from sim import tools
 from sim.errors import UserError
+from sim.sources import BUILD, label, modules, sources, yardsticks
 
 HERE = Path(__file__).resolve().parent
 CACHE = BUILD / "sim"

@@ -23,14 +23,13 @@ from xml.etree import ElementTree
 import pytest
 from cocotb_tools.runner import get_runner
 
-from scripts import tools
-from scripts.points import Point, label
-from scripts.sources import modules
+from sim import tools
+from sim.sources import BUILD, Point, label, modules
 from sim.verilate import reached
 
 SEED = int(os.environ.get("SEED", "1"))
 WAVES = os.environ.get("WAVES", "0") not in ("", "0")
-BUILD = tools.BUILD / "test"
+TESTS = BUILD / "test"
 
 TIMESCALE = ("1ns", "1ps")
 # Registers and variables without a value start with random bits: a missing reset shows.
@@ -45,7 +44,7 @@ def simulate(module: str, point: Point) -> None:
     Fails with the words of every cocotb test that failed, and when there was none to run. Example:
     ``simulate("shade_third", {"FORM": 0})`` runs the tests of ``tb.fixed.test_third``.
     """
-    folder = BUILD / "-".join([module, *(f"{name}{value}" for name, value in point.items()), *["waves"] * WAVES])
+    folder = TESTS / "-".join([module, *(f"{name}{value}" for name, value in point.items()), *["waves"] * WAVES])
     folder.mkdir(parents=True, exist_ok=True)
     with _locked(folder), mock.patch.dict(os.environ, tools.environment()):
         results = _run(module, point, folder)
@@ -109,7 +108,7 @@ def _locked(folder: Path) -> Iterator[None]:
 @contextlib.contextmanager
 def _shared_runtime(folder: Path) -> Iterator[None]:
     """Lend a build Verilator's own object files, four fifths of the compilation; keep those of the first build."""
-    shared = BUILD / f"runtime-{_key()}"
+    shared = TESTS / f"runtime-{_key()}"
     later = time.time() + 60  # newer than the makefile that is about to be written: make leaves them alone
     for path in shared.glob("verilated*"):
         os.utime(shutil.copy(path, folder), (later, later))

@@ -17,7 +17,7 @@ from tqdm import tqdm
 from scripts.papers import p1_arithmetic, p1_face, p1_line, p2_criterion, p4_face, p4_vectors
 from scripts.papers.claims import Claim
 from scripts.report import save
-from scripts.sources import BUILD
+from sim.sources import BUILD
 
 PARTS = (p1_arithmetic, p1_line, p1_face, p2_criterion, p4_vectors, p4_face)
 STEPS = [step for part in PARTS for step in part.STEPS]

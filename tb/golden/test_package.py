@@ -17,7 +17,7 @@ import pytest
 import golden
 from golden import contract as k
 from scripts import generate
-from scripts.sources import ROOT
+from sim.sources import ROOT
 
 MODULES = ["golden", *(module.name for module in pkgutil.walk_packages(golden.__path__, "golden."))]
 

@@ -26,9 +26,9 @@ from PIL import Image
 import sim
 from golden import contract, poly
 from scripts import bench, cli, units
-from scripts.sources import ROOT
 from sim import frame, model, verilate
 from sim.errors import LONGEST
+from sim.sources import ROOT
 from sim.units import Case, cases
 from tb.scene import bad_meshes
 

@@ -1,10 +1,12 @@
 """The lint itself: every rule bites on a module that breaks it, and on nothing else."""
 
+import re
 from pathlib import Path
 
 import pytest
 
 from scripts import lint
+from sim.sources import ROOT
 
 GOOD = """\
 // shade_toy: y = x + 1.
@@ -151,3 +153,12 @@ def test_file_list_rules(toy: Path, monkeypatch) -> None:
     ]
     monkeypatch.setattr(lint, "sources", lambda: [package, toy, toy])
     assert lint.file_list() == ["rtl/fixed/shade_toy.sv: listed twice"]
+
+
+@pytest.mark.parametrize(("package", "above"), [("golden", "sim|scripts|tb"), ("sim", "scripts|tb"), ("scripts", "tb")])
+def test_imports_go_one_way(package: str, above: str) -> None:
+    """tb -> scripts -> sim -> golden: nothing imports what stands above it."""
+    imported = re.compile(rf"^\s*(?:from|import) (?:{above})\b", re.MULTILINE)
+    sources = sorted((ROOT / package).rglob("*.py"))
+    assert sources
+    assert [str(path) for path in sources if imported.search(path.read_text())] == []

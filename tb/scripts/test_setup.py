@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from scripts import tools
-from scripts.sources import ROOT
+from scripts.tools import check_cocotb
+from sim import tools
 from sim.errors import UserError
+from sim.sources import ROOT
 
 PROGRAMS = ("git", "make", "g++", "perl", "python3")
 ALWAYS = ("sh", "dirname", "basename", "uname", "env")
@@ -183,4 +184,4 @@ def test_the_shared_python_library(monkeypatch) -> None:
     """cocotb cannot run without it; the line names the package."""
     monkeypatch.setattr("find_libpython.find_libpython", lambda: None)
     with pytest.raises(UserError, match=r"libpython3.\d+.so: missing, .* apt-get install -y libpython3.\d+$"):
-        tools.check_cocotb()
+        check_cocotb()

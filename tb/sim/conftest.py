@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts import sources
-from sim import model, verilate
+from sim import model, sources, verilate
 
 
 @pytest.fixture

@@ -16,9 +16,9 @@ import pytest
 import sim
 from golden import contract as k
 from golden import fixed, poly
-from scripts.sources import ROOT
 from sim import SimulationError, model, verilate
 from sim.errors import UserError
+from sim.sources import ROOT
 from sim.verilate import Port
 from tb.runner import SEED
 

@@ -1,7 +1,4 @@
-"""Where things are: the repository, its build folder, and the RTL's file list that every tool reads.
-
-This module imports nothing of the project, so that ``scripts.tools`` and ``sim`` can both build on it.
-"""
+"""Where things are: the repository, its build folder, the RTL's file list that every tool reads."""
 
 from pathlib import Path
 
@@ -9,6 +6,8 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
 FILE_LIST = ROOT / "rtl" / "shade.f"
 YARDSTICKS = ROOT / "scripts" / "yardsticks"
+
+Point = dict[str, int]  # parameters of a module
 
 
 def sources() -> list[Path]:
@@ -25,3 +24,8 @@ def modules() -> dict[str, Path]:
 def yardsticks() -> dict[str, Path]:
     """Name and file of the modules that others are measured against; they are no part of the product."""
     return {path.stem: path for path in sorted(YARDSTICKS.glob("*.sv"))}
+
+
+def label(module: str, point: Point) -> str:
+    """``shade_third[WIDTH=4,FORM=1]``: how a module at a point is called in tests, messages and reports."""
+    return module + ("[" + ",".join(f"{k}={v}" for k, v in point.items()) + "]" if point else "")

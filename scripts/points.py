@@ -5,7 +5,7 @@ The default point is always one of them. ``REFUSED`` holds points that elaborati
 
 from itertools import product
 
-Point = dict[str, int]
+from sim.sources import Point
 
 
 def grid(**choices: list[int]) -> list[Point]:
@@ -99,8 +99,3 @@ VARIANTS: dict[str, list[Point]] = {
 def points(module: str) -> list[Point]:
     """The points of a module, the default one (``{}``) first."""
     return [{}, *POINTS.get(module, [])]
-
-
-def label(module: str, point: Point) -> str:
-    """``shade_third[WIDTH=4,FORM=1]``: how a module at a point is called in tests, messages and reports."""
-    return module + ("[" + ",".join(f"{k}={v}" for k, v in point.items()) + "]" if point else "")

@@ -108,7 +108,7 @@ PIXELS_MAX = 1 << LOG2_MAX
 DIRECT_MAX = NODE_COUNT  # pixels of a span in direct mode
 NORMAL_FIFO_LOG2 = 6  # normals that shade_pixel_normals can hold back: more than its latency
 NODE_F = 15  # interpolated normals at the nodes, S2.15: before normalizing they may be longer than 1
-SPAN_FIFO_LOG2 = 5  # spans that wait for the walk along their nodes: more than the planner's latency
+SPAN_FIFO_LOG2 = 6  # spans that wait for the walk along their nodes: more than the planner's latency
 RECORD_FIFO_LOG2 = 7  # records that wait for shade_poly_span: more than the latency from a node to its light
 FIFO_LOG2 = 5  # pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 

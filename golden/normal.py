@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from golden import contract as k
-from golden.fixed import ONE, Int, clamp, integers, round, rsqrt, weigh, wrap
+from golden.fixed import ONE, Int, clamp, integers, limit, round, rsqrt, weigh, wrap
 from golden.stream import walk
 
 
@@ -92,14 +92,33 @@ def _weigh(
     return weigh(k0, k1, c << align, k2, square >> cut, k4, fourth >> cut, f=k.SQUARE_F, out_f=out_f)
 
 
-def scale3(x: ArrayLike, y, z, s) -> tuple[Int, Int, Int]:
-    """v s, S1.16, for s U0.18 in [0, 1), each component rounded to nearest, ties up (``shade_scale3``).
+def scale3(x: ArrayLike, y, z, s, gain: int = 0) -> tuple[Int, Int, Int]:
+    """v s 2^gain, S1.16, for s U0.18 in [0, 1), each component rounded to nearest, ties up (``shade_scale3``).
 
     >>> [int(v) for v in scale3(65536, -65536, 32768, 131072)]  # s = 1/2
     [32768, -32768, 16384]
     """
     x, y, z, s = integers(x, y, z, s)
-    return tuple(round(v * s, k.INVC_F) for v in (x, y, z))
+    return tuple(round(v * s, k.INVC_F - gain) for v in (x, y, z))
+
+
+def unit(x: ArrayLike, y, z, bypass: ArrayLike = 0) -> tuple[Int, ...]:
+    """(nx, ny, nz, zero, short): v / |v|, S1.16, of a vector S2.15 with |v| >= 1/8; or v as it is (``shade_unit``).
+
+    1/|v| = r 2^(15-e) of ``rsqrt``; v is shifted by 15 - e, at most to 8 v (rounded to 18 bits where it is halved), r
+    is rounded to U0.18, the product to S1.16. Shorter vectors, ``short``, stay too short; 0, ``zero``, stays 0.
+    ``bypass``: no normalization (P2), v saturated to S1.16.
+
+    >>> [int(v) for v in unit(9830, 0, 13107)]  # (0.3, 0, 0.4)
+    [39321, 0, 52429, 0, 0]
+    """
+    x, y, z, bypass = integers(x, y, z, bypass)
+    r, e = rsqrt(x * x + y * y + z * z)
+    shift = np.where(bypass, 1, np.clip(k.NODE_F - e, -2, 3))
+    s = np.where(bypass, 1 << k.INVC_F - 1, np.minimum(round(r, k.RSQRT_F - k.INVC_F), (1 << k.INVC_F) - 1))
+    shifted = (limit(round(c << shift + 2, 2)) for c in (x, y, z))
+    zero, short = (x | y | z) == 0, e < k.NODE_F - 3
+    return *scale3(*shifted, s, gain=1), zero.astype(np.int64), short.astype(np.int64)
 
 
 def bisect(ax: ArrayLike, ay, az, bx, by, bz, s) -> tuple[Int, Int, Int]:

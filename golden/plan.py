@@ -9,13 +9,15 @@ power of two of pixels, and their degree:
 
     k = largest with kappa(2^k) <= T3;   degree 1 if kappa(2^k) <= T1, 2 if <= T2, else 3
 
-Where not even 4 pixels are short enough, or a record has no more pixels than its polynomial has nodes, its pixels
-are lit directly. Integers: kappa and the thresholds are U11.20.
+Where not even 4 pixels are short enough, pixels are lit directly, four a record. So are those of a last record with no
+more pixels than its polynomial has nodes; the others share their nodes with their neighbours. Integers: kappa and the
+thresholds are U11.20. Mirrors ``rtl/plan``.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,10 +27,9 @@ from golden.fixed import ONE, Int, clamp, integers, round, weigh, wrap
 from golden.poly import span_log2
 from golden.stream import walk
 
-KAPPA_F = 20
-KAPPA_MAX = (1 << 31) - 1
-LOG2_MIN = 2  # nodes at a quarter of a segment are pixels: 4 pixels at least
-THRESHOLDS = tuple((1 << KAPPA_F) >> shift for shift in (5, 2, 0))  # T1, T2, T3 = 1/32, 1/4, 1
+KAPPA_F = k.KAPPA_F
+KAPPA_MAX = (1 << k.KAPPA_W) - 1
+THRESHOLDS = tuple(int(t * (1 << KAPPA_F)) for t in (3 / 64, 1 / 4, 5 / 4))  # T1, T2, T3
 
 # position of node i in quarters of a segment, by degree (node set left)
 QUARTERS = np.array([[0, 0, 0, 0], [0, 4, 0, 0], [0, 2, 4, 0], [0, 1, 2, 4]])
@@ -67,30 +68,109 @@ def quantize_kappa(kappa: ArrayLike) -> Int:
     return np.clip(np.rint(np.asarray(kappa, float) * (1 << KAPPA_F)), 0, KAPPA_MAX).astype(np.int64)
 
 
-def plan(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS) -> Records:
-    """Records of spans of ``count`` pixels, 1 .. 4096, whose arc of 2^span_log2(count) pixels has ``kappa`` (U11.20).
+def quantize_sharpness(n: float) -> tuple[int, int]:
+    """(mantissa, exponent) of a sharpness: n = mantissa 2^-16 2^exponent, mantissa U1.16 in [1, 2), to nearest.
 
-    >>> plan([20], [3 << 20]).count.tolist(), plan([20], [3 << 20]).degree.tolist()  # 3 -> two segments with 3/4 each
-    ([16, 4], [3, 2])
+    >>> quantize_sharpness(48)
+    (98304, 5)
+    """
+    fraction, exponent = np.frexp(n)
+    mantissa = int(np.rint(np.ldexp(fraction, k.SHARPNESS_F + 1)))
+    carry = mantissa >> k.SHARPNESS_F + 1
+    return mantissa >> carry, int(exponent) - 1 + carry
+
+
+def kappa(gx: ArrayLike, gy, gz, log2: ArrayLike, mantissa: ArrayLike, exponent: ArrayLike) -> Int:
+    """n |g|^2 4^log2 / 2, U11.20, cut and saturated (``shade_kappa``): 1 - c of 2^log2 increments g, times n.
+
+    g is S2.29; its components are shifted by as many bits as leave each its sign, and cut to 18 bits, the sum of their
+    squares to 17. n = mantissa 2^(exponent - 16), mantissa 17 bits. Within 2^-12 of the exact value, relative.
+
+    >>> int(kappa(1 << 22, 0, 0, 5, 1 << 16, 5)) / (1 << KAPPA_F)  # 32 (32 / 128)^2 / 2
+    1.0
+    """
+    *g, log2, mantissa, exponent = integers(gx, gy, gz, log2, mantissa, exponent)
+    magnitude = np.bitwise_or.reduce([c ^ (c >> k.STEP_W) for c in g])
+    common = k.STEP_W - 1 - sum((magnitude >> bit > 0).astype(np.int64) for bit in range(k.STEP_W - 1))
+    squares = sum(((c << common) >> k.STEP_W - 18) ** 2 for c in g) >> 19
+    drop = 9 + 2 * common - exponent - 2 * log2  # of twice the product
+    value = 2 * squares * mantissa >> np.maximum(drop, 0)
+    return np.where(drop < 0, KAPPA_MAX, np.minimum(value, KAPPA_MAX))
+
+
+class Plan(NamedTuple):
+    """What a span becomes: ``main`` records of ``degree`` with 2^log2 pixels each, and a last one (arrays (S,))."""
+
+    main: Int
+    log2: Int
+    degree: Int
+    last_count: Int
+    last_log2: Int
+    last_degree: Int
+
+
+def segments(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS) -> Plan:
+    """The plan of spans of ``count`` pixels whose arc of 2^span_log2(count) pixels has ``kappa`` (U11.20).
+
+    >>> [int(v) for v in segments(20, 4 << 20)]  # 4 -> two segments with 1 each
+    [1, 4, 3, 4, 2, 2]
     """
     count, kappa = integers(count, kappa)
     t1, t2, t3 = thresholds
     whole = span_log2(count)
-    log2 = whole.copy()
-    while (shorter := (kappa >> 2 * (whole - log2) > t3) & (log2 > LOG2_MIN)).any():
-        log2 -= shorter
-    direct = kappa >> 2 * (whole - log2) > t3  # at 4 pixels a record, or because the span is that short
-    segments = np.maximum(np.where(direct, -(-count >> log2), -(-(count - 1) >> log2)), 1)
+    halvings = sum((kappa >> 2 * h > t3).astype(np.int64) for h in range(k.KAPPA_W // 2 + 1))
+    direct = halvings > np.maximum(whole - k.LOG2_MIN, 0)
+    log2 = np.where(direct, k.LOG2_MIN, whole - halvings)
+    main = np.maximum(count - 2 + direct, 0) >> log2  # curved, the last pixel is the last node
+    last_count = count - (main << log2)
+    last_log2 = span_log2(last_count)
 
-    span, index = walk(segments)
-    start = index << log2[span]
-    last = index == segments[span] - 1
-    pixels = np.where(last, count[span] - start, 1 << log2[span])
-    own = span_log2(pixels)
-    local = kappa[span] >> 2 * (whole[span] - own)
-    degree = np.select([local <= t1, local <= t2], [k.DEGREE_LINEAR, k.DEGREE_QUADRATIC], k.DEGREE_CUBIC)
-    degree[direct[span] | (pixels <= degree + 1)] = k.DEGREE_DIRECT
-    return Records(span, start, pixels, degree, own)
+    def degree(length: Int) -> Int:
+        local = kappa >> 2 * np.maximum(whole - length, 0)
+        return np.select([direct, local <= t1, local <= t2], [k.DEGREE_DIRECT, k.DEGREE_LINEAR, k.DEGREE_QUADRATIC], 3)
+
+    last = degree(last_log2)
+    return Plan(main, log2, degree(log2), last_count, last_log2, np.where(last_count <= last + 1, 0, last))
+
+
+def planner(
+    gx: ArrayLike, gy, gz, count: ArrayLike, mantissa: int, exponent: int,
+    thresholds: tuple[int, int, int] = THRESHOLDS, fixed_degree: int = 0, flat: ArrayLike = 0,
+) -> Plan:  # fmt: skip
+    """The plan of spans with the increment g, S2.29, and ``count`` pixels, 0 .. 8191 (``shade_planner``).
+
+    ``kappa``, then ``segments``. ``fixed_degree`` 1 .. 3: one record a span, as the paper has it; up to 4 pixels are
+    lit directly. ``flat``: of these spans kappa counts as 0: one record of degree 1, whatever the fixed degree.
+
+    >>> [int(v) for v in planner(1 << 22, 0, 0, 33, 1 << 16, 7)]  # kappa = 4
+    [1, 4, 3, 17, 4, 3]
+    """
+    count, flat = integers(count, flat)
+    single = (flat > 0) | (fixed_degree > 0)
+    arc = np.where(single, 0, kappa(gx, gy, gz, span_log2(count), mantissa, exponent))
+    planned = segments(count, arc, thresholds)
+    if not fixed_degree:
+        return planned
+    degree = np.where(count <= k.DIRECT_MAX, k.DEGREE_DIRECT, fixed_degree)
+    return planned._replace(last_degree=np.where(flat, planned.last_degree, degree))
+
+
+def plan(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS) -> Records:
+    """Records of spans of ``count`` pixels, 1 .. 4096, whose arc of 2^span_log2(count) pixels has ``kappa`` (U11.20).
+
+    >>> plan([20], [4 << 20]).count.tolist(), plan([20], [4 << 20]).degree.tolist()  # 4 -> two segments with 1 each
+    ([16, 4], [3, 2])
+    """
+    planned = segments(count, kappa, thresholds)
+    span, index = walk(planned.main + 1)
+    last = index == planned.main[span]
+    return Records(
+        span,
+        index << planned.log2[span],
+        np.where(last, planned.last_count[span], np.int64(1) << planned.log2[span]),
+        np.where(last, planned.last_degree[span], planned.degree[span]),
+        np.where(last, planned.last_log2[span], planned.log2[span]),
+    )
 
 
 def plan_fixed(count: ArrayLike, degree: int) -> Records:

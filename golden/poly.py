@@ -196,10 +196,15 @@ def poly_span(
     return saturate(value, k.PIXEL_W), span
 
 
-def pack_spans(nodes: ArrayLike, degree: ArrayLike, count: ArrayLike, tag: ArrayLike = 0) -> np.ndarray:
-    """Spans as beats of ``s_axis_span_tdata``: (S, 6) uint32, least significant word first. Layout: golden.contract."""
+def pack_spans(
+    nodes: ArrayLike, degree: ArrayLike, count: ArrayLike, tag: ArrayLike = 0, more: ArrayLike = 0
+) -> np.ndarray:
+    """Spans as beats of ``s_axis_span_tdata``: (S, 6) uint32, least significant word first. Layout: golden.contract.
+
+    ``more``: 1 where the span goes on in the next beat; its last pixel is not marked as the last.
+    """
     (nodes,) = integers(nodes)
-    degree, count, tag = integers(degree, count, tag)
+    degree, count, tag, more = integers(degree, count, tag, more)
     mask = (1 << k.INTENSITY_W) - 1
     fields = [
         *(
@@ -208,6 +213,7 @@ def pack_spans(nodes: ArrayLike, degree: ArrayLike, count: ArrayLike, tag: Array
             for i in range(k.NODE_COUNT)
         ),
         (count, (1 << k.COUNT_W) - 1, k.SPAN_COUNT_LSB),
+        (more, 1, k.SPAN_MORE),
         (degree, (1 << k.DEGREE_W) - 1, k.SPAN_DEGREE_LSB),
         (tag, (1 << k.TAG_W) - 1, k.SPAN_TAG_LSB),
     ]

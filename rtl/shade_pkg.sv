@@ -125,7 +125,7 @@ package shade_pkg;
   localparam int DIRECT_MAX = 4;  // pixels of a span in direct mode
   localparam int NORMAL_FIFO_LOG2 = 6;  // normals that shade_pixel_normals can hold back: more than its latency
   localparam int NODE_F = 15;  // interpolated normals at the nodes, S2.15: before normalizing they may be longer than 1
-  localparam int SPAN_FIFO_LOG2 = 5;  // spans that wait for the walk along their nodes: more than the planner's latency
+  localparam int SPAN_FIFO_LOG2 = 6;  // spans that wait for the walk along their nodes: more than the planner's latency
   localparam int RECORD_FIFO_LOG2 = 7;  // records that wait for shade_poly_span: more than the latency from a node to its light
   localparam int FIFO_LOG2 = 5;  // pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 

@@ -207,18 +207,21 @@ def _excess(row: str, n: float) -> float:
 def lobe_registers(k1: float, k2: float, xmax: float) -> dict[str, int]:
     """k1, k2, xmax, shift of ``shade_lobe``: X = x 2^shift, K1 = k1 / 2^shift, K2 = k2 / 4^shift.
 
-    The least shift by which K1 < 2, |K2| < 1 and K1 - K2 X < 2 up to the largest X, U1.16.
+    The first of LOBE_FINE (X = x, K1 = 4 k1, K2 = 4 k2), 0, 1, .. 6 by which K1 < 2, |K2| < 1 and K1 - K2 X < 2 up to
+    the largest X, U1.16. ValueError where there is none.
 
     >>> lobe_registers(2, 1, 1)  # n = 32: K1 = 1, K2 = 1/4, X < 2
     {'k1': 1048576, 'k2': 32768, 'xmax': 131071, 'shift': 1}
     """
-    for shift in range(1 << k.LOBE_SHIFT_W):
-        limit = min(_fixed(xmax * 2**shift, k.LOBE_X_F), (1 << k.LOBE_X_F + 1) - 1)
-        codes = _fixed(k1 / 2**shift, k.LOBE_K1_F), _fixed(k2 / 4**shift, k.LOBE_K2_F)
-        steepest = codes[0] / 2**k.LOBE_K1_F - min(codes[1], 0) / 2**k.LOBE_K2_F * limit / 2**k.LOBE_X_F
+    fine = 2**k.LOBE_FINE_F
+    scales = {k.LOBE_FINE: (1, fine, fine)} | {i: (2**i, 2**-i, 4**-i) for i in range(k.LOBE_FINE)}
+    for shift, (for_x, for_k1, for_k2) in scales.items():
+        largest = min(_fixed(xmax * for_x, k.LOBE_X_F), (2 << k.LOBE_X_F) - 1)
+        codes = _fixed(k1 * for_k1, k.LOBE_K1_F), _fixed(k2 * for_k2, k.LOBE_K2_F)
+        steepest = codes[0] / 2**k.LOBE_K1_F - min(codes[1], 0) / 2**k.LOBE_K2_F * largest / 2**k.LOBE_X_F
         if steepest < 2 and abs(codes[1]) < 1 << k.LOBE_K2_F:
-            return {"k1": codes[0], "k2": codes[1], "xmax": limit, "shift": shift}
-    raise ValueError(f"k1, k2: {k1:g}, {k2:g} are out of range, allowed is k1 / 128 < 2, |k2| / 128^2 < 1")
+            return {"k1": codes[0], "k2": codes[1], "xmax": largest, "shift": shift}
+    raise ValueError(f"k1, k2: {k1:g}, {k2:g} are out of range, allowed is k1 / 64 < 2, |k2| / 4096 < 1")
 
 
 def registers(material: Material, light: ArrayLike | None = None) -> dict[str, int]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from golden import contract as k
-from golden import material
+from golden import light, material
 from golden.fixed import ONE
 from golden.material import Material, registers
 from golden.reference import light as reference
@@ -16,16 +16,15 @@ from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)
 COSINES = np.arange(ONE + 1)  # every one of a node, U1.16
-SHININESS = [*np.linspace(1, 34, 265), *np.geomspace(34, 1024, 120)]
+SHININESS = [*np.linspace(1, 34, 133), *np.geomspace(34, 1024, 60)]
 ROUGHNESS = [0.2, 0.3, 0.4, 0.5, 0.6]
 ENERGY_N = [16, 17, 20, 32, 64, 100, 128, 256, 512, 1000, 1024]
 
 
 def lobe_of(words: dict[str, int]) -> np.ndarray:
-    """The lobe of register values at every cosine, to 16 fraction bits."""
-    x = np.minimum((ONE - COSINES) * 2.0 ** words["shift"], words["xmax"]) / ONE
-    base = 1 - words["k1"] / 2**k.LOBE_K1_F * x + words["k2"] / 2**k.LOBE_K2_F * x**2
-    return np.rint(np.maximum(base, 0) ** 16 * ONE) / ONE
+    """The RTL's lobe of register values at every cosine."""
+    x = (ONE - COSINES) << k.VERSINE_F - k.INTENSITY_F
+    return light.lobe(x, *(words[name] for name in ("k1", "k2", "shift", "xmax"))) / ONE
 
 
 def error(model: str, form: str = "refined", *, shininess: float = 1, roughness: float = 0.3) -> float:
@@ -44,7 +43,7 @@ def gain_of(words: dict[str, int]) -> float:
 @pytest.mark.parametrize("n", SHININESS)
 def test_cosine_power(n: float) -> None:
     """Least maximal error of two coefficients; 5.6e-4 at n = 8 is the least there is (beyond n = 8.3 it is 5e-4)."""
-    bound = 0.058 if n < 4 else 4e-3 if n < 8 else 5.7e-4 if n < 8.3 else 5e-4
+    bound = 0.058 if n < 4 else 4e-3 if n < 8 else 5.8e-4 if n < 8.3 else 5e-4
     assert error("blinn", shininess=n) <= bound
     if n >= 16:
         assert error("blinn", "paper", shininess=n) <= 0.0175
@@ -87,17 +86,22 @@ def test_lower_powers(n: float, power: int) -> None:
 
 @pytest.mark.parametrize("model", ["blinn", "cook-torrance", "ward"])
 @pytest.mark.parametrize("form", ["paper", "refined"])
-def test_registers_of_the_lobe_fit(model: str, form: str) -> None:
-    """Their formats, the bound of K1 - K2 X, and the base falls from X = 0 to xmax."""
-    for n, m in [*((n, 0.3) for n in SHININESS), *((1, m) for m in np.linspace(0.05, 0.7, 80))]:
-        curve = material.fit(model, float(n), float(m), form)
+def test_registers_of_the_lobe(model: str, form: str) -> None:
+    """They fit their formats, and with the roundings of the lobe they cost less than 1.6 ulp of its exact value."""
+    values = (
+        [(float(n), 0.3) for n in SHININESS[::3]] if model == "blinn" else [(1, m) for m in np.linspace(0.05, 0.7, 66)]
+    )
+    for n, m in values:
+        curve = material.fit(model, n, m, form)
         words = material.lobe_registers(*curve)
-        k1, k2, xmax = words["k1"] / 2**k.LOBE_K1_F, words["k2"] / 2**k.LOBE_K2_F, words["xmax"] / 2**k.LOBE_X_F
-        assert 0 <= k1 < 2 and -1 < k2 < 1 and 0 < xmax < 2 and 0 <= words["shift"] < 1 << k.LOBE_SHIFT_W
-        assert k1 - min(k2, 0) * xmax < 2
-        assert k1 - 2 * k2 * xmax > -1e-4
-        if xmax < curve[2] * 2 ** words["shift"] - 2**-16:  # where the format limits X the lobe is over
-            assert (1 - k1 * xmax + k2 * xmax**2) < 0.46
+        assert 0 <= words["k1"] < 2 << k.LOBE_K1_F and abs(words["k2"]) < 1 << k.LOBE_K2_F
+        assert 0 < words["xmax"] < 2 << k.LOBE_X_F and 0 <= words["shift"] <= k.LOBE_FINE
+        assert np.abs(lobe_of(words) - reference.lobe(COSINES / ONE, *curve)).max() < 1.6 / ONE
+
+
+def test_what_no_register_holds() -> None:
+    with pytest.raises(ValueError, match="k1, k2: 128, 0 are out of range, allowed is k1 / 64 < 2"):
+        material.lobe_registers(128, 0, 1)
 
 
 # ---- energy ------------------------------------------------------------------------------------------------------
@@ -136,57 +140,43 @@ def test_energy_of_the_paper(row: str) -> None:
 LIGHTS = [(0, 0, 1), (0.3, 0.6, 0.8), (1, 0, 0.1), (-1, 2, -0.5)]
 
 
-@pytest.mark.parametrize("light", LIGHTS)
+@pytest.mark.parametrize("towards", LIGHTS)
 @pytest.mark.parametrize("energy_row", ["none", "phong", "phong-modified", "blinn", "blinn-modified", "blinn-height"])
-def test_automatic_exposure(energy_row: str, light: tuple) -> None:
+def test_automatic_exposure(energy_row: str, towards: tuple) -> None:
     """At the peak specular light is 1; of the original model too."""
     model = "blinn" if energy_row == "none" else energy_row.partition("-")[0]
-    peak = Material(model, 100, energy=energy_row).channels(reference.halfway(light), light)[1]
+    peak = Material(model, 100, energy=energy_row).channels(reference.halfway(towards), towards)[1]
     assert peak == pytest.approx(1)
 
 
-@pytest.mark.parametrize("light", LIGHTS)
+@pytest.mark.parametrize("towards", LIGHTS)
 @pytest.mark.parametrize("model", ["cook-torrance", "ward"])
-def test_automatic_exposure_of_the_physical_models(model: str, light: tuple) -> None:
+def test_automatic_exposure_of_the_physical_models(model: str, towards: tuple) -> None:
     """Where the normal is the half vector they are 1/2, whatever the roughness."""
     for roughness in (0.1, 0.5):
-        peak = Material(model, roughness=roughness).channels(reference.halfway(light), light)[1]
+        peak = Material(model, roughness=roughness).channels(reference.halfway(towards), towards)[1]
         assert peak == pytest.approx(0.5)
 
 
 def test_exposure_is_a_factor() -> None:
-    light, normal = (0.3, 0.6, 0.8), reference.unit(reference.VIEW + RNG.normal(0, 0.3, (50, 3)))
+    towards, normal = (0.3, 0.6, 0.8), reference.unit(reference.VIEW + RNG.normal(0, 0.3, (50, 3)))
     for model in ("phong", "blinn", "schlick", "cook-torrance", "ward"):
-        once, thrice = (Material(model, exposure=exposure).channels(normal, light)[..., 1] for exposure in (1, 3))
+        once, thrice = (Material(model, exposure=exposure).channels(normal, towards)[..., 1] for exposure in (1, 3))
         assert thrice == pytest.approx(3 * once)
-    direct = reference.light_channels("cook-torrance", normal, light, roughness=0.3, f0=0.04)
-    assert Material("cook-torrance", exposure=1).channels(normal, light) == pytest.approx(direct)
+    direct = reference.light_channels("cook-torrance", normal, towards, roughness=0.3, f0=0.04)
+    assert Material("cook-torrance", exposure=1).channels(normal, towards) == pytest.approx(direct)
 
 
 @pytest.mark.parametrize("model", material.MODELS)
 def test_registers_are_the_model(model: str) -> None:
-    """Gain times lobe (Schlick: the rational one) times geometry = the original, within the error of the fit."""
-    light, surface = (0.3, 0.6, 0.8), Material(model, 40, 0.25)
-    words = registers(surface, light)
-    normal = reference.unit(RNG.normal(0, 0.25, (500, 3)) + reference.halfway(light))
-    to_light, half = (np.array([words[axis + part] for part in "xyz"]) / ONE for axis in "lh")
-    nl, nv, nh, vh = normal @ to_light, normal[:, 2], normal @ half, words["vh"] / ONE
-    c = 2 * nl * nv - to_light[2] if model == "phong" else nh
-    lobe = np.interp(c, COSINES / ONE, lobe_of(words), left=0)
-    with np.errstate(divide="ignore"):
-        inv_n = words["inv_n"] / ONE
-        factor = {
-            "lambert": 0,
-            "phong": 1,
-            "blinn": 1,
-            "schlick": nh * inv_n / ((1 - nh) * 2 ** words["inv_n_exp"] + nh * inv_n),
-            "cook-torrance": np.minimum(1, 2 * nh * np.minimum(nl, nv) / vh) / (nl * nv),
-            "ward": 1 / np.sqrt(nl * nv),
-        }[model]
-    specular = gain_of(words) * (1 if model == "schlick" else lobe) * factor
-    seen = (nl > 0.1) & (nv > 0.1)
-    assert specular * seen == pytest.approx(surface.channels(normal, light)[..., 1] * seen, abs=1e-3)
-    assert words["model"] == material.MODELS[model]
+    """What the RTL makes of them is the original model, within the error of the fit."""
+    towards, surface = (0.3, 0.6, 0.8), Material(model, 40, 0.25)
+    normal = reference.unit(RNG.normal(0, 0.25, (2000, 3)) + reference.halfway(towards))
+    *actual, flags = light.light(*np.rint(normal * ONE).astype(np.int64).T, material.registers(surface, towards))
+    unsaturated = (flags >> k.LIGHT_SATURATED & 1) == 0
+    assert unsaturated.mean() > 0.9
+    error = np.stack(actual, axis=-1) / ONE - surface.channels(normal, towards)
+    assert np.abs(error[unsaturated]).max() < 1e-3
 
 
 def test_registers_without_a_direction() -> None:
@@ -204,8 +194,8 @@ def test_registers_without_a_direction() -> None:
 @pytest.mark.parametrize("f0", [0, 1e-9, 1])
 def test_extreme_reflectance(f0: float) -> None:
     """No division by 0, no exponent out of range."""
-    for light in (None, *LIGHTS, (0, 0, -1)):
-        words = registers(Material("cook-torrance", f0=f0), light)
+    for towards in (None, *LIGHTS, (0, 0, -1)):
+        words = registers(Material("cook-torrance", f0=f0), towards)
         assert 0 <= words["gain"] < 2 * ONE and -32 <= words["gain_exp"] < 32
 
 
@@ -240,8 +230,8 @@ def test_light_registers() -> None:
 
 def test_light_behind() -> None:
     """L = -V has no half vector, not even where it is so by quantization alone."""
-    for light in ((0, 0, -1), (1e-6, 0, -1)):
-        assert list(material.light_registers(light).values()) == [0, 0, -ONE, 0, 0, 0, 0]
+    for towards in ((0, 0, -1), (1e-6, 0, -1)):
+        assert list(material.light_registers(towards).values()) == [0, 0, -ONE, 0, 0, 0, 0]
 
 
 def test_colour_registers() -> None:
@@ -280,7 +270,7 @@ def test_refusals(values: dict, message: str) -> None:
     assert str(raised.value) == message
 
 
-@pytest.mark.parametrize("light", [(0, 0, 0), (0, 0, nan), (1, 2), (0, 0, 1e7)])
-def test_no_direction(light: tuple) -> None:
+@pytest.mark.parametrize("towards", [(0, 0, 0), (0, 0, nan), (1, 2), (0, 0, 1e7)])
+def test_no_direction(towards: tuple) -> None:
     with pytest.raises(ValueError, match=r"light: .* is no direction, allowed is 1e-06 to 1e\+06"):
-        material.light_registers(light)
+        material.light_registers(towards)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from golden import contract as k
 from golden.fixed import ONE
+from golden.plan import quantize_sharpness
 from golden.reference import light as reference
 
 MODELS = {name: getattr(k, "MODEL_" + name.upper().replace("-", "_")) for name in reference.MODELS}
@@ -265,6 +266,16 @@ def light_registers(light: ArrayLike) -> dict[str, int]:
     behind = towards == [0, 0, -ONE]
     half = [0 if behind else _fixed(part) for part in reference.halfway(vector)]
     return dict(zip(("lx", "ly", "lz", "hx", "hy", "hz", "vh"), (*towards, *half, half[2]), strict=True))
+
+
+def planner_registers(material: Material) -> dict[str, int]:
+    """sharpness, U1.16 in [1, 2), and sharpness_exp, 0 .. 12, of the planner.
+
+    >>> planner_registers(Material("phong", 48))  # 4 n = 192 = 1.5 * 2^7
+    {'sharpness': 98304, 'sharpness_exp': 7}
+    """
+    sharpness = reference.sharpness(material.model, material.shininess, material.roughness)
+    return dict(zip(("sharpness", "sharpness_exp"), quantize_sharpness(sharpness), strict=True))
 
 
 def colour_registers(material: Material) -> dict[str, int]:

@@ -1,6 +1,6 @@
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
-// Generated from golden/contract.py by `python -m scripts.generate`: change them there.
+// Generated from golden/contract.py and golden/registers.py by `python -m scripts.generate`: change them there.
 // W: width in bits, F: fraction bits among them. S1.16: sign, 1 integer bit, 16 fraction bits.
 // Latencies are in clocks from an input taken to the output that it causes.
 
@@ -13,6 +13,8 @@ package shade_pkg;
   localparam int FORM_REFINED = 1;  // the paper's idea with its defects repaired; the default everywhere
 
   // codes
+  localparam int PATH_POLY = 0;  // light at nodes, a polynomial between them (P1)
+  localparam int PATH_NORMALS = 1;  // a unit normal and light at every pixel (P4)
   localparam int NODES_LEFT = 0;  // cubic nodes {0, 1/4, 1/2, 1} (paper P1, first set)
   localparam int NODES_RIGHT = 1;  // cubic nodes {0, 1/2, 3/4, 1} (paper P1, second set)
   localparam int EVALUATOR_HORNER = 0;
@@ -160,7 +162,7 @@ package shade_pkg;
   localparam int LINE_COUNT_LSB = 192;  // normals of the line
   localparam int LINE_TAG_LSB = 208;
   localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
-  localparam int LINE_FLAT_LSB = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+  localparam int LINE_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
 
@@ -207,6 +209,7 @@ package shade_pkg;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
   localparam int LATENCY_PLANNER = 28;  // see shade_planner
+  localparam int LATENCY_LANE = 0;  // set below
   localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
@@ -222,6 +225,132 @@ package shade_pkg;
   localparam int LINE_ERROR_METRIC = 2;  // V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
   localparam int LINE_ERROR_THRESHOLD = 3;  // threshold outside [0, 1]; taken as 0 or 1
   localparam int LINE_ERROR_W = 4;
+
+  // what a lane tells of a node, beside and above the bits LIGHT_*
+  localparam int LANE_NORMAL_ZERO = 4;  // a normal of length 0
+  localparam int LANE_NORMAL_SHORT = 5;  // a normal too short to be brought to length 1
+  localparam int LANE_METRIC = 6;  // LINE_ERROR_METRIC
+  localparam int LANE_THRESHOLD = 7;  // LINE_ERROR_THRESHOLD
+  localparam int LANE_FLAGS_W = 8;
+
+  // registers: byte offset, lowest bit of a field, word after reset
+  localparam int REG_ID = 0;  // 0x000, ro
+  localparam int REG_ID_RESET = 1347635268;  // 0x50534844
+  localparam int REG_VERSION = 4;  // 0x004, ro
+  localparam int REG_VERSION_MINOR_LSB = 16;
+  localparam int REG_VERSION_MAJOR_LSB = 24;
+  localparam int REG_VERSION_RESET = 65536;  // 0x00010000
+  localparam int REG_CONTROL = 8;  // 0x008, rw
+  localparam int REG_CONTROL_COLOUR_LSB = 1;
+  localparam int REG_CONTROL_VARIANT_LSB = 4;
+  localparam int REG_CONTROL_FIXED_DEGREE_LSB = 8;
+  localparam int REG_CONTROL_CLEAR_LSB = 31;
+  localparam int REG_STATUS = 12;  // 0x00c, ro
+  localparam int REG_STATUS_ERROR_EMPTY_LSB = 8;
+  localparam int REG_STATUS_ERROR_LONG_LSB = 9;
+  localparam int REG_STATUS_ERROR_PACKET_LSB = 10;
+  localparam int REG_STATUS_ERROR_METRIC_LSB = 11;
+  localparam int REG_STATUS_ERROR_THRESHOLD_LSB = 12;
+  localparam int REG_STATUS_LIGHT_MODEL_LSB = 16;
+  localparam int REG_STATUS_LIGHT_RANGE_LSB = 17;
+  localparam int REG_STATUS_LIGHT_ZERO_LSB = 18;
+  localparam int REG_STATUS_LIGHT_SATURATED_LSB = 19;
+  localparam int REG_STATUS_NORMAL_ZERO_LSB = 24;
+  localparam int REG_STATUS_NORMAL_SHORT_LSB = 25;
+  localparam int REG_PIXELS = 32;  // 0x020, ro
+  localparam int REG_SPANS = 36;  // 0x024, ro
+  localparam int REG_CLOCKS = 40;  // 0x028, ro
+  localparam int REG_STALLS = 44;  // 0x02c, ro
+  localparam int REG_EVALUATIONS = 48;  // 0x030, ro
+  localparam int REG_ERRORS = 52;  // 0x034, ro
+  localparam int REG_SHARPNESS = 64;  // 0x040, rw
+  localparam int REG_SHARPNESS_SHARPNESS_EXP_LSB = 24;
+  localparam int REG_SHARPNESS_RESET = 65536;  // 0x00010000
+  localparam int REG_T1 = 68;  // 0x044, rw
+  localparam int REG_T1_RESET = 49152;  // 0x0000c000
+  localparam int REG_T2 = 72;  // 0x048, rw
+  localparam int REG_T2_RESET = 262144;  // 0x00040000
+  localparam int REG_T3 = 76;  // 0x04c, rw
+  localparam int REG_T3_RESET = 1310720;  // 0x00140000
+  localparam int REG_THRESHOLD = 80;  // 0x050, rw
+  localparam int REG_THRESHOLD_RESET = 58982;  // 0x0000e666
+  localparam int REG_MODEL = 128;  // 0x080, rw
+  localparam int REG_MODEL_COSINE_LSB = 8;
+  localparam int REG_K1 = 132;  // 0x084, rw
+  localparam int REG_K2 = 136;  // 0x088, rw
+  localparam int REG_XMAX = 140;  // 0x08c, rw
+  localparam int REG_XMAX_SHIFT_LSB = 24;
+  localparam int REG_INV_N = 144;  // 0x090, rw
+  localparam int REG_INV_N_INV_N_EXP_LSB = 24;
+  localparam int REG_GAIN = 148;  // 0x094, rw
+  localparam int REG_GAIN_GAIN_EXP_LSB = 24;
+  localparam int REG_F0 = 152;  // 0x098, rw
+  localparam int REG_LX = 192;  // 0x0c0, rw
+  localparam int REG_LY = 196;  // 0x0c4, rw
+  localparam int REG_LZ = 200;  // 0x0c8, rw
+  localparam int REG_LZ_RESET = 65536;  // 0x00010000
+  localparam int REG_HX = 204;  // 0x0cc, rw
+  localparam int REG_HY = 208;  // 0x0d0, rw
+  localparam int REG_HZ = 212;  // 0x0d4, rw
+  localparam int REG_HZ_RESET = 65536;  // 0x00010000
+  localparam int REG_VH = 216;  // 0x0d8, rw
+  localparam int REG_VH_RESET = 65536;  // 0x00010000
+  localparam int REG_AMBIENT_R = 256;  // 0x100, rw
+  localparam int REG_AMBIENT_G = 260;  // 0x104, rw
+  localparam int REG_AMBIENT_B = 264;  // 0x108, rw
+  localparam int REG_KD_R = 268;  // 0x10c, rw
+  localparam int REG_KD_R_RESET = 65536;  // 0x00010000
+  localparam int REG_KD_G = 272;  // 0x110, rw
+  localparam int REG_KD_G_RESET = 65536;  // 0x00010000
+  localparam int REG_KD_B = 276;  // 0x114, rw
+  localparam int REG_KD_B_RESET = 65536;  // 0x00010000
+  localparam int REG_KS_R = 280;  // 0x118, rw
+  localparam int REG_KS_R_RESET = 65536;  // 0x00010000
+  localparam int REG_KS_G = 284;  // 0x11c, rw
+  localparam int REG_KS_G_RESET = 65536;  // 0x00010000
+  localparam int REG_KS_B = 288;  // 0x120, rw
+  localparam int REG_KS_B_RESET = 65536;  // 0x00010000
+
+  // the settings of a draw call: what can be written, by the names of docs/registers.md
+  typedef struct packed {
+    logic [0:0] path;
+    logic [0:0] colour;
+    logic [2:0] variant;
+    logic [1:0] fixed_degree;
+    logic [16:0] sharpness;
+    logic [3:0] sharpness_exp;
+    logic [30:0] t1;
+    logic [30:0] t2;
+    logic [30:0] t3;
+    logic signed [17:0] threshold;
+    logic [2:0] model;
+    logic [0:0] cosine;
+    logic [20:0] k1;
+    logic signed [17:0] k2;
+    logic [16:0] xmax;
+    logic [2:0] shift;
+    logic [16:0] inv_n;
+    logic [3:0] inv_n_exp;
+    logic [16:0] gain;
+    logic signed [5:0] gain_exp;
+    logic [16:0] f0;
+    logic signed [17:0] lx;
+    logic signed [17:0] ly;
+    logic signed [17:0] lz;
+    logic signed [17:0] hx;
+    logic signed [17:0] hy;
+    logic signed [17:0] hz;
+    logic [16:0] vh;
+    logic [16:0] ambient_r;
+    logic [16:0] ambient_g;
+    logic [16:0] ambient_b;
+    logic [16:0] kd_r;
+    logic [16:0] kd_g;
+    logic [16:0] kd_b;
+    logic [16:0] ks_r;
+    logic [16:0] ks_g;
+    logic [16:0] ks_b;
+  } draw_t;
 
 endpackage
 /* verilator lint_on UNUSEDPARAM */

@@ -1,6 +1,7 @@
 """Write what the RTL takes from the golden model: ``python -m scripts.generate`` (``--check``: compare).
 
-``rtl/shade_pkg.sv`` from ``golden/contract.py``, the table ``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``.
+``rtl/shade_pkg.sv`` from ``golden/contract.py`` and ``golden/registers.py``, the table
+``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``, ``docs/registers.md`` from ``golden/registers.py``.
 """
 
 from __future__ import annotations
@@ -11,13 +12,13 @@ import sys
 from pathlib import Path
 
 from golden import contract as k
-from golden import fixed
+from golden import fixed, registers
 
 ROOT = Path(__file__).resolve().parent.parent
 HEADER = """\
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
-// Generated from golden/contract.py by `python -m scripts.generate`: change them there.
+// Generated from golden/contract.py and golden/registers.py by `python -m scripts.generate`: change them there.
 // W: width in bits, F: fraction bits among them. S1.16: sign, 1 integer bit, 16 fraction bits.
 // Latencies are in clocks from an input taken to the output that it causes.
 
@@ -38,6 +39,16 @@ def package() -> str:
                 comment = f"  // {match[2]}" if match[2] else ""
                 lines.append(f"  localparam int {name} = {values.pop(name)};{comment}")
     assert not values, f"constants that the generator did not find: {sorted(values)}"
+    lines += ["", "  // registers: byte offset, lowest bit of a field, word after reset"]
+    for name, (value, comment) in registers.constants().items():
+        lines.append(f"  localparam int {name} = {value};{comment and f'  // {comment}'}")
+    lines += ["", "  // the settings of a draw call: what can be written, by the names of docs/registers.md"]
+    lines += ["  typedef struct packed {"]
+    lines += [
+        f"    logic {'signed ' if field.format.startswith('S') else ''}[{field.width - 1}:0] {field.name};"
+        for field in registers.settings()
+    ]
+    lines += ["  } draw_t;"]
     return "\n".join([*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", ""])
 
 
@@ -75,7 +86,49 @@ def rsqrt_rom() -> str:
     )
 
 
-GENERATED = {"rtl/shade_pkg.sv": package, "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom}
+MAP_HEADER = """\
+# Registers
+
+Generated from `golden/registers.py` by `python -m scripts.generate`: change them there. Words of 32 bits on AXI4-Lite,
+by byte offset; unnamed bits read 0. `S1.16`: signed, one integer bit, 16 fraction bits; `U`: unsigned. Access `ro`:
+writing changes nothing. Values come from physical parameters by `golden.material`, words by `golden.registers.pack`:
+
+```python
+from golden.material import Material, colour_registers, planner_registers, registers
+from golden.registers import pack
+
+surface = Material("cook-torrance", roughness=0.3)
+words = pack(registers(surface, light=(0.3, 0.6, 0.8)) | planner_registers(surface) | colour_registers(surface))
+```
+"""
+
+
+def register_map() -> str:
+    """The page of the register map: a table for every group, a row for every field."""
+    lines = [MAP_HEADER]
+    for title, group in registers.GROUPS.items():
+        lines += [f"## {title}", ""]
+        lines += [
+            "| offset | register | access | bits | field | format | reset | meaning |",
+            "|---|---|---|---|---|---|---|---|",
+        ]
+        for register in group:
+            where = f"`{register.offset:#05x}` | `{register.name}` | {register.access}"
+            for field in register.fields:
+                value = f"{field.reset:#x}" if field.reset > 9 else f"{field.reset}"
+                lines.append(
+                    f"| {where} | {field.bits} | `{field.name}` | {field.format} | {value} | {field.meaning} |"
+                )
+                where = " | | "
+        lines.append("")
+    return "\n".join(lines)
+
+
+GENERATED = {
+    "rtl/shade_pkg.sv": package,
+    "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom,
+    "docs/registers.md": register_map,
+}
 
 
 def main() -> int:

@@ -12,6 +12,8 @@ FORM_PAPER = 0  # exactly what the paper prints
 FORM_REFINED = 1  # the paper's idea with its defects repaired; the default everywhere
 
 # ---- codes -----------------------------------------------------------------------------------------------------
+PATH_POLY = 0  # light at nodes, a polynomial between them (P1)
+PATH_NORMALS = 1  # a unit normal and light at every pixel (P4)
 NODES_LEFT = 0  # cubic nodes {0, 1/4, 1/2, 1} (paper P1, first set)
 NODES_RIGHT = 1  # cubic nodes {0, 1/2, 3/4, 1} (paper P1, second set)
 EVALUATOR_HORNER = 0
@@ -143,7 +145,7 @@ LINE_DATA_W = 256  # words of 32 bits: normal x, y, z and increment x, y, z, S2.
 LINE_COUNT_LSB = 192  # normals of the line
 LINE_TAG_LSB = 208
 LINE_COS_LSB = 224  # cosine between the line's end normals, S1.16, for d1a
-LINE_FLAT_LSB = 242  # the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+LINE_FLAT = 242  # the triangle passed P2's criterion: its normals need no normalizing in diffuse light
 NORMAL_DATA_W = 64  # x, y, z, S1.16, at bit 0, 18, 36
 PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
 
@@ -190,6 +192,7 @@ LATENCY_LIGHT_LOCAL = LATENCY_HALFWAY + 1 + LATENCY_VERSINE + LATENCY_FACTOR + L
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
 LATENCY_KAPPA = 4 + LATENCY_MUL + 2 + LATENCY_MUL + 4  # common shift, squares, sums, product, shift, range
 LATENCY_PLANNER = LATENCY_KAPPA + 14  # see shade_planner
+LATENCY_LANE = 0  # set below
 LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 3  # the next run's step, the run, the rounding
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
@@ -205,6 +208,13 @@ ERROR_W = 3
 LINE_ERROR_METRIC = 2  # V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
 LINE_ERROR_THRESHOLD = 3  # threshold outside [0, 1]; taken as 0 or 1
 LINE_ERROR_W = 4
+
+# ---- what a lane tells of a node, beside and above the bits LIGHT_* --------------------------------------------------
+LANE_NORMAL_ZERO = 4  # a normal of length 0
+LANE_NORMAL_SHORT = 5  # a normal too short to be brought to length 1
+LANE_METRIC = 6  # LINE_ERROR_METRIC
+LANE_THRESHOLD = 7  # LINE_ERROR_THRESHOLD
+LANE_FLAGS_W = 8
 
 
 def constants() -> dict[str, int]:

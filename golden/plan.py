@@ -29,7 +29,7 @@ from golden.stream import walk
 
 KAPPA_F = k.KAPPA_F
 KAPPA_MAX = (1 << k.KAPPA_W) - 1
-THRESHOLDS = tuple(int(t * (1 << KAPPA_F)) for t in (3 / 64, 1 / 4, 5 / 4))  # T1, T2, T3
+THRESHOLDS = tuple(int(t * (1 << KAPPA_F)) for t in (3 / 64, 5 / 16, 1))  # T1, T2, T3
 
 # position of node i in quarters of a segment, by degree (node set left)
 QUARTERS = np.array([[0, 0, 0, 0], [0, 4, 0, 0], [0, 2, 4, 0], [0, 1, 2, 4]])

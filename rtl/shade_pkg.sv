@@ -269,9 +269,9 @@ package shade_pkg;
   localparam int REG_T1 = 68;  // 0x044, rw
   localparam int REG_T1_RESET = 49152;  // 0x0000c000
   localparam int REG_T2 = 72;  // 0x048, rw
-  localparam int REG_T2_RESET = 262144;  // 0x00040000
+  localparam int REG_T2_RESET = 327680;  // 0x00050000
   localparam int REG_T3 = 76;  // 0x04c, rw
-  localparam int REG_T3_RESET = 1310720;  // 0x00140000
+  localparam int REG_T3_RESET = 1048576;  // 0x00100000
   localparam int REG_THRESHOLD = 80;  // 0x050, rw
   localparam int REG_THRESHOLD_RESET = 58982;  // 0x0000e666
   localparam int REG_MODEL = 128;  // 0x080, rw

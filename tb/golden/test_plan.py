@@ -98,9 +98,11 @@ def test_other_thresholds() -> None:
         (4, plan.KAPPA_MAX, [(0, 4, 0, 2)]),
         (5, T2 + 1, [(0, 5, 3, 2)]),
         (9, T3, [(0, 9, 3, 3)]),  # 2^3 + 1 pixels: the last is the last node
-        (9, T3 + 4, [(0, 4, 3, 2), (4, 5, 3, 2)]),  # half the length, a quarter of kappa: 5/16
-        (8, T3 + 4, [(0, 4, 3, 2), (4, 4, 0, 2)]),  # four pixels share a node with the next ones, the last have none
-        (8, 4 * T2, [(0, 8, 3, 3)]),
+        (9, T3 + 4, [(0, 4, 2, 2), (4, 5, 2, 2)]),  # half the length, a quarter of kappa: 1/4
+        (9, 4 * T2 + 4, [(0, 4, 3, 2), (4, 5, 3, 2)]),
+        (8, 4 * T2 + 4, [(0, 4, 3, 2), (4, 4, 0, 2)]),  # four pixels share a node with the next ones, the last have none
+        (8, 4 * T2, [(0, 4, 2, 2), (4, 4, 2, 2)]),
+        (8, T3, [(0, 8, 3, 3)]),
         (3, T3 + 1, [(0, 3, 0, 1)]),
         (9, 4 * T3 + 4, [(0, 4, 0, 2), (4, 4, 0, 2), (8, 1, 0, 0)]),  # too sharp for 4 pixels: lit directly
         (10, T1, [(0, 10, 1, 4)]),

@@ -6,6 +6,7 @@
 //
 //   s_axis_span   AXI4-Stream, one beat a span: nodes of both channels, degree, pixel count, tag (see shade_span_walk)
 //   m_axis_pixel  AXI4-Stream, one beat a pixel: tdata = {specular, diffuse}, U0.16 each; tuser = tag; tlast = last pixel
+//                 (of the last beat, where a span comes as several: SPAN_MORE)
 //   error_o, error_count_o  see shade_span_walk; a faulty span is dropped and costs one clock
 //
 // Unclamped inside, so that a terminator puts no kink into a polynomial; clamped to [0, 1 - 2^-16] at the end.

@@ -5,9 +5,10 @@
 // (direct) gives up to four pixels, pixel j being node j + 1: its tokens carry that node in first place.
 //
 //   s_axis_span_tdata  node i (0 .. 3) of channel c (0 .. 1), S1.16, at bit 18 (4 c + i); pixels at SPAN_COUNT_LSB;
-//                      degree at SPAN_DEGREE_LSB; tag at SPAN_TAG_LSB; other bits ignored
+//                      degree at SPAN_DEGREE_LSB; tag at SPAN_TAG_LSB; SPAN_MORE: this is a record of a span that goes
+//                      on in the next one; other bits ignored
 //   nodes_o            the same nodes in the same order
-//   t_o                U1.16; log2_o = k; first_o, last_o frame the span; tag_o is the span's
+//   t_o                U1.16; log2_o = k; first_o, last_o frame the span (no last_o with SPAN_MORE); tag_o is the span's
 //   credit_i           gives one credit back; 2^CREDIT_LOG2 are there after reset, a token costs one
 //   error_o            sticky, bits ERROR_*: an empty span, one of more than 2^LOG2_MAX pixels, a direct one of more than 4
 //   error_count_o      such spans, saturating. They are dropped: they cost one clock and no token.
@@ -81,7 +82,7 @@ module shade_span_walk #(
   logic [T_F:0] t_q;
   logic [3:0] log2_q;
   logic [shade_pkg::TAG_W-1:0] tag_q;
-  logic direct;
+  logic more_q, direct;
   assign direct = degree_q == shade_pkg::DEGREE_W'(shade_pkg::DEGREE_DIRECT);
 
   // direct: the next pixel is the next node of each channel
@@ -95,6 +96,7 @@ module shade_span_walk #(
       nodes_q  <= s_axis_span_tdata[NODES_W-1:0];
       degree_q <= in_degree;
       tag_q    <= s_axis_span_tdata[shade_pkg::SPAN_TAG_LSB+:shade_pkg::TAG_W];
+      more_q   <= s_axis_span_tdata[shade_pkg::SPAN_MORE];
       log2_q   <= in_log2;
       t_q      <= '0;
     end else if (issue) begin
@@ -104,7 +106,7 @@ module shade_span_walk #(
 
     // tokens; a direct pixel is a segment of its own
     first_o  <= first || direct;
-    last_o   <= last;
+    last_o   <= last && !more_q;
     nodes_o  <= nodes_q;
     degree_o <= degree_q;
     t_o      <= t_q;

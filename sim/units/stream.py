@@ -31,17 +31,17 @@ def check_poly_span(
     count[rng.integers(0, spans, 2)] = rng.integers(k.PIXELS_MAX + 1, 1 << k.COUNT_W, 2)
     degree[1], count[1] = k.DEGREE_CUBIC, k.PIXELS_MAX
     degree[0], count[0] = k.DEGREE_LINEAR, 3  # its first pixel measures the latency
-    tag = rng.integers(0, 1 << k.TAG_W, spans)
+    tag, more = rng.integers(0, 1 << k.TAG_W, spans), rng.integers(0, 2, spans)
 
+    beats = poly.pack_spans(nodes, degree, count, tag, more)
     model = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=FORMS[form])
-    run = model.run(
-        s_axis_span_tdata=poly.pack_spans(nodes, degree, count, tag), in_gap=in_gap, out_stall=out_stall, seed=seed
-    )
+    run = model.run(s_axis_span_tdata=beats, in_gap=in_gap, out_stall=out_stall, seed=seed)
     pixels, owner = poly.poly_span(nodes, degree, count, evaluator=evaluator, form=FORMS[form])
     bad = poly.span_errors(degree, count)
     result = _stream_result(
         run, "pixel", pixels[:, 0] | pixels[:, 1] << k.PIXEL_W, tag, owner, bad, np.count_nonzero(bad),
         k.LATENCY_POLY_SPAN_HORNER if evaluator == k.EVALUATOR_HORNER else k.LATENCY_POLY_SPAN_FDIFF, bool(out_stall),
+        more,
     )  # fmt: skip
 
     span, j = poly.span_walk(degree, count)
@@ -121,11 +121,16 @@ def check_pixel_normals(
 
 
 def _stream_result(
-    run: sim.Run, word: str, data, tag, owner, errors, dropped: int, declared: int, stalled: bool
+    run: sim.Run, word: str, data, tag, owner, errors, dropped: int, declared: int, stalled: bool, more=None
 ) -> Result:
-    """Compare the words of a stream ``m_axis_<word>``, its tags, its ends, the status and the first one's latency."""
+    """Compare the words of a stream ``m_axis_<word>``, its tags, its ends, the status and the first one's latency.
+
+    ``more``: 1 for the items whose last word is no end.
+    """
     unit = f"m_axis_{word}"
     last = np.r_[owner[1:] != owner[:-1], True].astype(np.int64)
+    if more is not None:
+        last &= 1 - more[owner]
     expected = {f"{unit}_tdata": data, f"{unit}_tuser": tag[owner], f"{unit}_tlast": last}
     result = Result(vectors=len(data), latency=int(run.given[0] - run.taken[0]), throughput=len(data) / run.clocks)
     status = {"error_o": int(np.bitwise_or.reduce(errors)), "error_count_o": int(dropped)}

@@ -37,16 +37,17 @@ def nodes(bench: Bench, rows: int) -> dict[str, np.ndarray]:
 
 @dataclass(frozen=True)
 class Spans:
-    """Spans for shade_span_walk and shade_poly_span: nodes (S, 2, 4), degree (S,), count (S,), tag (S,)."""
+    """Spans for shade_span_walk and shade_poly_span: nodes (S, 2, 4), degree, count, tag, more (S,)."""
 
     nodes: np.ndarray
     degree: np.ndarray
     count: np.ndarray
     tag: np.ndarray
+    more: np.ndarray
 
     def beats(self) -> list[tuple[int]]:
         """What stands at s_axis_span_tdata, a beat a span; bits without a meaning are random."""
-        packed = _beats(pack_spans(self.nodes, self.degree, self.count, self.tag))
+        packed = _beats(pack_spans(self.nodes, self.degree, self.count, self.tag, self.more))
         return [(beat | random.getrandbits(k.SPAN_DATA_W) & ~USED,) for beat in packed]
 
     def texts(self) -> list[str]:
@@ -69,18 +70,22 @@ def _beats(words: np.ndarray) -> list[int]:
     return [int.from_bytes(row.astype("<u4").tobytes(), "little") for row in words]
 
 
-USED = _beats(pack_spans(np.full((1, k.CHANNELS, k.NODE_COUNT), -1), [-1], [-1], [-1]))[0]
+USED = _beats(pack_spans(np.full((1, k.CHANNELS, k.NODE_COUNT), -1), [-1], [-1], [-1], [1]))[0]
 """The bits of a beat that have a meaning."""
 
 
 def spans(bench: Bench, degree: ArrayLike, count: ArrayLike) -> Spans:
-    """Spans with random tags and nodes: one half with intensities in [0, 1], the other with corners and any bits."""
+    """Spans with random tags and nodes: one half with intensities in [0, 1], the other with corners and any bits.
+
+    A third of them goes on in the next one.
+    """
     degree, count = np.broadcast_arrays(degree, count)
     shape = (count.size, k.CHANNELS, k.NODE_COUNT)
     seen = bench.rng.integers(0, 1 << k.INTENSITY_F, shape, endpoint=True)
     free = bench.signed(k.INTENSITY_W, seen.size).reshape(shape)
     chosen = np.where(bench.rng.random((count.size, 1, 1)) < 0.5, seen, free)
-    return Spans(chosen, degree, count, bench.rng.integers(0, 1 << k.TAG_W, count.size))
+    more = bench.rng.random(count.size) < 1 / 3
+    return Spans(chosen, degree, count, bench.rng.integers(0, 1 << k.TAG_W, count.size), more)
 
 
 def mixed_spans(bench: Bench, rows: int, faults: float = 0.0) -> Spans:

@@ -8,6 +8,7 @@ rtl/fixed/shade_limit.sv
 rtl/fixed/shade_clamp.sv
 rtl/fixed/shade_mul.sv
 rtl/fixed/shade_square.sv
+rtl/fixed/shade_square_fabric.sv
 rtl/fixed/shade_weigh.sv
 rtl/fixed/shade_third.sv
 rtl/fixed/shade_rsqrt_rom.sv
@@ -35,6 +36,9 @@ rtl/normal/shade_midpoint.sv
 rtl/normal/shade_node_chain.sv
 rtl/normal/shade_metric.sv
 rtl/plan/shade_criterion.sv
+rtl/plan/shade_kappa.sv
+rtl/plan/shade_planner.sv
+rtl/plan/shade_node_walk.sv
 rtl/normal/shade_increment.sv
 rtl/normal/shade_pixel_normals.sv
 rtl/light/shade_versine.sv
@@ -42,3 +46,11 @@ rtl/light/shade_reflect.sv
 rtl/light/shade_halfway.sv
 rtl/light/shade_fresnel.sv
 rtl/light/shade_colour.sv
+rtl/light/shade_lobe.sv
+rtl/light/shade_geometry.sv
+rtl/light/shade_gain.sv
+rtl/light/shade_angles.sv
+rtl/light/shade_reflectance.sv
+rtl/light/shade_light.sv
+rtl/light/shade_light_local.sv
+rtl/core/shade_registers.sv

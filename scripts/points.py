@@ -49,6 +49,11 @@ POINTS: dict[str, list[Point]] = {
     "shade_node_chain": grid(FORM=[0], DEGREE=[1, 2]),
     "shade_criterion": grid(FORM=[0], DEGREE=[1, 2]),
     "shade_versine": [{"FORM": 0}],
+    "shade_angles": [*grid(REFLECT=[0, 1], LOCAL=[0, 1]), {"FORM": 0}],
+    "shade_reflectance": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1], LOCAL=[0, 1]), {"FORM": 0}],
+    "shade_light": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
+    "shade_light_local": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
+    "shade_node_walk": [{"CREDIT_LOG2": 1}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
 }
 
@@ -81,6 +86,9 @@ REFUSED: dict[str, list[Point]] = {
     "shade_bisect": [{"WAIT": 0}],
     "shade_criterion": [{"FORM": 2}, {"DEGREE": 1}, {"FORM": 0, "DEGREE": 3}],
     "shade_versine": [{"FORM": 2}],
+    "shade_angles": [{"REFLECT": 2}, {"LOCAL": -1}],
+    "shade_reflectance": [{"DIVIDE": 2}],
+    "shade_node_walk": [{"CREDIT_LOG2": 0}],
     "shade_poly_span": [{"EVALUATOR": 2}],
 }
 
@@ -91,6 +99,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_poly_span": [{"EVALUATOR": 1}],
     "shade_scale3": [{"FOLD": 3}],
     "shade_versine": [{"FORM": 0}],
+    "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],
     "yardstick_beckmann": [{"WARD": 1}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }

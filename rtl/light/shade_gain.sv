@@ -1,0 +1,86 @@
+// shade_gain: s = lobe num fresnel (1 + w) gain 2^(e + gain_exp): the specular light of every model, saturated.
+//
+//   lobe_i, num_i, fresnel_i    d.ffff                 U1.16 in [0, 1]
+//   product                     d.ffff ffff            U1.32, what is below is cut: far below the lobe's own ulp
+//   gain (1 + w)                d.ffff                 U1.16, rounded: 2^-16 (relative); exact for w = 0
+//   s                          dd.ffff ffff ffff       U2.48, shifted right by 31 - e - gain_exp, within 0 .. 63
+//   s_o                         d.ffff                 S1.16 in [0, 2 - 2^-16], to nearest, ties up, saturated
+//
+// Sums of exponents beyond 31 count as 31: what is not below 2^-47 saturates there. Six 18 x 18 multipliers; with
+// constant inputs (fresnel = 1, w = 0) fewer. gain_i and gain_exp_i must not change while values are inside.
+// Latency LATENCY_GAIN = 9 clocks, one value a clock. Source: P1 and P3, the models' scales.
+// Example: lobe = 1, num = 1/2, fresnel = 1, w = 0, e = 0, gain = 1, gain_exp = 1 -> s = 1.
+module shade_gain (
+  input  logic                                      clk_i,
+  input  logic                                      rst_i,
+  input  logic                                      valid_i,
+  input  logic        [        shade_pkg::GAIN_F:0] gain_i,      // U1.16 in [1, 2), or 0
+  input  logic signed [  shade_pkg::GAIN_EXP_W-1:0] gain_exp_i,
+  input  logic        [   shade_pkg::INTENSITY_F:0] lobe_i,
+  input  logic        [   shade_pkg::INTENSITY_F:0] num_i,
+  input  logic        [   shade_pkg::INTENSITY_F:0] fresnel_i,
+  input  logic signed [    shade_pkg::FACTOR_F-1:0] w_i,
+  input  logic signed [shade_pkg::FACTOR_EXP_W-1:0] e_i,
+  output logic                                      valid_o,
+  output logic signed [ shade_pkg::INTENSITY_W-1:0] s_o,
+  output logic                                      saturated_o
+);
+  localparam int F = shade_pkg::INTENSITY_F;
+  localparam int A_W = F + 2;  // U1.16 as a signed operand
+  localparam int B_W = 2 * F + 2;  // U1.32
+  localparam int W_F = shade_pkg::FACTOR_F;
+  localparam int MUL = shade_pkg::LATENCY_MUL;
+  localparam int V_W = 3 * F + 2;  // U2.48
+
+  // ---- the products ----------------------------------------------------------------------------------------------
+  logic [2*A_W-1:0] shape_q2;
+  logic [A_W+B_W-1:0] product_q4, v_q6;
+  logic signed [A_W+W_F-1:0] share_q2;
+  logic [F:0] fresnel_q2, factor_q3, factor_q4;
+  logic signed [A_W+W_F-1:0] sum;
+  shade_mul #(.A_W(A_W), .B_W(A_W)) u_shape (.clk_i, .a_i({1'b0, lobe_i}), .b_i({1'b0, num_i}), .p_o(shape_q2));
+  shade_delay #(.WIDTH(F + 1), .DEPTH(MUL)) u_fresnel (.clk_i, .d_i(fresnel_i), .q_o(fresnel_q2));
+  shade_mul #(.A_W(B_W), .B_W(A_W)) u_product (
+    .clk_i, .a_i(shape_q2[B_W-1:0]), .b_i({1'b0, fresnel_q2}), .p_o(product_q4)
+  );
+  shade_mul #(.A_W(A_W), .B_W(W_F)) u_share (.clk_i, .a_i({1'b0, gain_i}), .b_i(w_i), .p_o(share_q2));
+  assign sum = share_q2 + $signed({1'b0, gain_i, 1'b1, {(W_F - 1) {1'b0}}});
+  always_ff @(posedge clk_i) begin
+    factor_q3 <= sum[W_F+:F+1];
+    factor_q4 <= factor_q3;
+  end
+  shade_mul #(.A_W(B_W), .B_W(A_W)) u_v (
+    .clk_i, .a_i(product_q4[F+:B_W]), .b_i({1'b0, factor_q4}), .p_o(v_q6)
+  );
+
+  // ---- the exponents: how far to the right, with one bit left for the rounding -----------------------------------
+  localparam int E_W = shade_pkg::FACTOR_EXP_W + 1;
+  localparam int SHIFT_W = 6;
+  logic signed [E_W-1:0] e_q1, right;
+  logic [SHIFT_W-1:0] shift_q2, shift_q6;
+  logic [3:0] shift_q7;
+  assign right = E_W'(31) - e_q1;
+  always_ff @(posedge clk_i) begin
+    e_q1     <= E_W'(e_i) + E_W'(gain_exp_i);
+    shift_q2 <= right[E_W-1] ? '0 : right[SHIFT_W-1:0] | {SHIFT_W{right[SHIFT_W]}};
+    shift_q7 <= shift_q6[3:0];
+  end
+  shade_delay #(.WIDTH(SHIFT_W), .DEPTH(2 * MUL)) u_shift (.clk_i, .d_i(shift_q2), .q_o(shift_q6));
+
+  // ---- S1.16 -----------------------------------------------------------------------------------------------------
+  logic [V_W-1:0] v_q7, v_q8;
+  logic [F+1:0] rounded;
+  logic above;
+  assign rounded = {1'b0, v_q8[F+1:1]} + (F + 2)'({1'b0, v_q8[0]});
+  assign above   = |v_q8[V_W-1:F+2] || rounded[F+1];
+  always_ff @(posedge clk_i) begin
+    v_q7        <= v_q6[V_W-1:0] >> {shift_q6[SHIFT_W-1:4], 4'd0};
+    v_q8        <= v_q7 >> shift_q7;
+    s_o         <= {1'b0, above ? {(F + 1) {1'b1}} : rounded[F:0]};
+    saturated_o <= above;
+  end
+
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_GAIN)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+  logic unused;
+  assign unused = &{1'b0, shape_q2, product_q4, v_q6, sum};
+endmodule

@@ -14,11 +14,12 @@
 //   slot_o             number of the node in its record; first_o, last_o frame the nodes of a record that come
 //   count_o, degree_o  of the record; more_o: the span goes on behind it; flat_o, tag_o: the span's
 //
-// Latency from a span taken to its first node LATENCY_NODE_WALK = 3 clocks, one node a clock.
+// Latency from a span taken to its first node LATENCY_NODE_WALK = 3 clocks, one node in PACE clocks, for what is behind.
 // Example: 5 pixels, one record of degree 3: nodes at pixels 0, 1, 2, 4 in slots 0, 1, 2, 3.
 // Source: P4 (one increment for all lines of a triangle), P1, section IV (nodes).
 module shade_node_walk #(
-  parameter int CREDIT_LOG2 = shade_pkg::RECORD_FIFO_LOG2
+  parameter int CREDIT_LOG2 = shade_pkg::RECORD_FIFO_LOG2,
+  parameter int PACE        = 1
 ) (
   input  logic                               clk_i,
   input  logic                               rst_i,
@@ -49,8 +50,8 @@ module shade_node_walk #(
   output logic                               flat_o,
   output logic [        shade_pkg::TAG_W-1:0] tag_o
 );
-  if (CREDIT_LOG2 < 1) begin : g_check
-    $error("shade_node_walk: CREDIT_LOG2 must be at least 1");
+  if (CREDIT_LOG2 < 1 || PACE < 1 || PACE > 8) begin : g_check
+    $error("shade_node_walk: CREDIT_LOG2 must be at least 1 and PACE in 1 .. 8");
   end
 
   localparam int STEP_W = shade_pkg::STEP_W;
@@ -115,13 +116,26 @@ module shade_node_walk #(
   logic [DEGREE_W-1:0] degree_q;
   logic [TAG_W-1:0] tag_q;
   logic [CREDIT_LOG2:0] credit_q, credit_d;
+  logic on_pace;
   logic far;  // the next node of a cubic lies half a record away
-  assign issue      = busy_q && (!first_q || some_credit_q);
+  assign issue      = busy_q && (!first_q || some_credit_q) && on_pace;
   assign end_record = slot_q == last_slot_q;
   assign end_run    = end_record && records_q == ONE;
   assign load       = next_valid_q && (!busy_q || (issue && end_run));
   assign far        = degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;
   assign credit_d   = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(issue && first_q);
+
+  if (PACE == 1) begin : g_every_clock
+    assign on_pace = 1'b1;
+  end else begin : g_pace
+    logic [2:0] wait_q;
+    assign on_pace = wait_q == '0;
+    always_ff @(posedge clk_i) begin
+      if (issue) wait_q <= 3'(PACE - 1);
+      else if (!on_pace) wait_q <= wait_q - 3'd1;
+      if (rst_i) wait_q <= '0;
+    end
+  end
 
   for (genvar c = 0; c < 3; c++) begin : g_component
     logic [STEP_W-1:0] node, step;

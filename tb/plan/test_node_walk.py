@@ -12,7 +12,7 @@ from tb.bench import Bench, Mismatch, Source, checked, no_path
 from tb.runner import points, simulate
 
 
-@points({}, {"CREDIT_LOG2": 1})
+@points({}, {"CREDIT_LOG2": 1}, {"PACE": 6})
 def test_cocotb(point):
     simulate("shade_node_walk", point)
 
@@ -93,7 +93,8 @@ async def compare(bench: Bench, sent: dict[str, np.ndarray], nodes: Nodes) -> No
     """Wait for all nodes of the spans and compare them; no more may come."""
     walked = node_walk(*(sent[name] for name in list(sent)[:8]))
     total, record = len(walked.slot), walked.record
-    await bench.until(lambda: len(nodes.nodes) >= total, 20 * total + 100, f"{total} nodes")
+    patience = 20 * total * bench.parameter("PACE") + 100
+    await bench.until(lambda: len(nodes.nodes) >= total, patience, f"{total} nodes")
     await bench.tick(10)
     bench.equal(len(nodes.nodes), total, "number of nodes")
     last = np.append(np.diff(record), 1) != 0
@@ -120,7 +121,7 @@ async def walk(bench: Bench, gap: float, thrift: float) -> None:
 
 @checked()
 async def timing(bench: Bench) -> None:
-    """A node a clock and no bubble, neither between records nor between spans, LATENCY_NODE_WALK after the span."""
+    """A node in PACE clocks and no bubble, neither between records nor between spans, LATENCY_NODE_WALK after the span."""
     if bench.parameter("CREDIT_LOG2") < 3:  # records of one node take a credit a clock
         bench.checks += 1
         return
@@ -130,7 +131,8 @@ async def timing(bench: Bench) -> None:
     await source.send(words(sent))
     await compare(bench, sent, nodes)
     bench.equal(nodes.clocks[0] - source.clocks[0], k.LATENCY_NODE_WALK, "clocks from a span to its first node")
-    bench.equal(nodes.clocks[-1] - nodes.clocks[0], len(nodes.clocks) - 1, "clocks from the first node to the last")
+    taken = bench.parameter("PACE") * (len(nodes.clocks) - 1)
+    bench.equal(nodes.clocks[-1] - nodes.clocks[0], taken, "clocks from the first node to the last")
 
 
 @checked()
@@ -140,7 +142,7 @@ async def credits(bench: Bench) -> None:
     sent = spans(bench, 2 * capacity)
     source, nodes = setup(bench, thrift=1.0)
     cocotb.start_soon(source.send(words(sent)))
-    await bench.tick(8 * capacity + 20)
+    await bench.tick(8 * capacity * bench.parameter("PACE") + 20)
     bench.equal(sum(node["first_o"] for node in nodes.nodes), capacity, "records without a credit back")
     nodes.thrift = 0.0
     await compare(bench, sent, nodes)
@@ -153,7 +155,7 @@ async def reset(bench: Bench) -> None:
     sent = spans(bench, 10)
     sent["main"][0] = 9
     task = cocotb.start_soon(source.send(words(sent)))
-    await bench.tick(8)
+    await bench.tick(8 + bench.parameter("PACE"))
     task.cancel()
     source.withdraw()
     await bench.reset()

@@ -104,15 +104,28 @@ class Material:
         scale = reference.energy_scale(self.energy, self.shininess)
         return self.exposure * (scale if original else scale / _excess(self.energy, self.shininess))
 
+    @property
+    def lobe(self) -> tuple[float, float, float] | None:
+        """(k1, k2, xmax) of the lobe that stands for the highlight; None where it is not of that kind."""
+        has_lobe = self.model not in ("lambert", "schlick")
+        return fit(self.model, self.shininess, self.roughness, self.form) if has_lobe else None
+
     def channels(
-        self, normal: ArrayLike, light: ArrayLike, *, view: ArrayLike | None = None, as_given: bool = False
+        self,
+        normal: ArrayLike,
+        light: ArrayLike,
+        *,
+        view: ArrayLike | None = None,
+        as_given: bool = False,
+        fitted: bool = False,
     ) -> reference.Floats:
         """(..., 2): diffuse (unclamped) and specular light of the *original* model in float64.
 
         ``view`` None: viewer at infinity, directional light; else light and viewer of every point, and the exposure of
-        ``scale()``.
+        ``scale()``. ``fitted``: with the lobe and the energy scale of the form in place of the original ones.
         """
-        scale = self.scale(light if view is None else None, original=True)
+        scale = self.scale(light if view is None else None, original=not fitted)
+        lobe = self.lobe if fitted else None
         if self.model in ("cook-torrance", "ward"):  # scale holds what the reference has of its own
             scale *= 4 * pi * self.roughness**2
         return reference.light_channels(
@@ -124,6 +137,7 @@ class Material:
             f0=self.f0,
             scale=scale,
             cosine=self.cosine,
+            shape=lobe and (lambda c: reference.lobe(c, *lobe)),
             view=reference.VIEW if view is None else view,
             as_given=as_given,
         )
@@ -235,15 +249,17 @@ def registers(material: Material, light: ArrayLike | None = None) -> dict[str, i
     >>> [words[name] for name in ("model", "k1", "k2", "xmax", "shift", "gain", "gain_exp")]
     [2, 1047945, 47254, 90837, 2, 65536, 0]
     """
-    uses_lobe = material.model not in ("lambert", "schlick")
-    curve = fit(material.model, material.shininess, material.roughness, material.form) if uses_lobe else (0, 0, 1)
     inv_n_exp = floor(log2(material.shininess))
     inv_n = _fixed(2**inv_n_exp / material.shininess)
     if inv_n == ONE // 2:
         inv_n, inv_n_exp = ONE, inv_n_exp + 1
     gain = material.scale(light) if material.model != "lambert" else 0.0
     f0 = material.f0 if material.model == "cook-torrance" else 1.0
-    words = {"model": MODELS[material.model], "cosine": int(material.cosine), **lobe_registers(*curve)}
+    words = {
+        "model": MODELS[material.model],
+        "cosine": int(material.cosine),
+        **lobe_registers(*material.lobe or (0, 0, 1)),
+    }
     words |= {"inv_n": inv_n, "inv_n_exp": inv_n_exp, "f0": _fixed(f0)}
     if light is not None:
         words |= light_registers(light)

@@ -6,6 +6,7 @@ one for all normals or one for each (..., 3). n: shininess, m: roughness, x = 1 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import pi, sqrt
 from typing import Literal
 
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
+Shape = Callable[[Floats], Floats]
 VIEW = np.array([0.0, 0.0, 1.0])
 
 
@@ -107,18 +109,37 @@ def lambert(normal: ArrayLike, light: ArrayLike, **_) -> Floats:
 
 
 def blinn(
-    normal: ArrayLike, light: ArrayLike, shininess: float, *, view: ArrayLike = VIEW, as_given: bool = False, **_
+    normal: ArrayLike,
+    light: ArrayLike,
+    shininess: float,
+    *,
+    shape: Shape | None = None,
+    view: ArrayLike = VIEW,
+    as_given: bool = False,
+    **_,
 ) -> Floats:
-    """max(0, N.H)^n, H = (L + V)/|L + V|."""
-    return cosine_power(dot(_direction(normal, as_given), halfway(light, view)), shininess)
+    """max(0, N.H)^n, H = (L + V)/|L + V|.
+
+    ``shape``, here and below: a function of the cosine that stands for the highlight, relative to its peak.
+    """
+    c = dot(_direction(normal, as_given), halfway(light, view))
+    return shape(c) if shape else cosine_power(c, shininess)
 
 
 def phong(
-    normal: ArrayLike, light: ArrayLike, shininess: float, *, view: ArrayLike = VIEW, as_given: bool = False, **_
+    normal: ArrayLike,
+    light: ArrayLike,
+    shininess: float,
+    *,
+    shape: Shape | None = None,
+    view: ArrayLike = VIEW,
+    as_given: bool = False,
+    **_,
 ) -> Floats:
     """max(0, R.V)^n, R = 2 N (N.L) - L."""
     normal, light, view = _direction(normal, as_given), unit(light), unit(view)
-    return cosine_power(2 * dot(normal, light) * dot(normal, view) - dot(light, view), shininess)
+    c = 2 * dot(normal, light) * dot(normal, view) - dot(light, view)
+    return shape(c) if shape else cosine_power(c, shininess)
 
 
 def schlick(
@@ -134,6 +155,7 @@ def cook_torrance(
     *,
     roughness: float,
     f0: float = 1,
+    shape: Shape | None = None,
     view: ArrayLike = VIEW,
     as_given: bool = False,
     **_,
@@ -143,19 +165,27 @@ def cook_torrance(
     nl, nv, nh, vh = dot(normal, light), dot(normal, view), dot(normal, half), dot(view, half)
     lit = (nl > 0) & (nv > 0)
     masked = 2 * nh * np.minimum(nl, nv) / np.where(vh > 0, vh, 1)
-    value = fresnel(vh, f0) * beckmann(nh, roughness) * np.minimum(1, masked) / (pi * np.where(lit, nl * nv, 1))
-    return np.where(lit, value, 0)
+    slopes = shape(nh) / (4 * roughness**2) if shape else beckmann(nh, roughness)
+    return np.where(lit, fresnel(vh, f0) * slopes * np.minimum(1, masked) / (pi * np.where(lit, nl * nv, 1)), 0)
 
 
 def ward(
-    normal: ArrayLike, light: ArrayLike, *, roughness: float, view: ArrayLike = VIEW, as_given: bool = False, **_
+    normal: ArrayLike,
+    light: ArrayLike,
+    *,
+    roughness: float,
+    shape: Shape | None = None,
+    view: ArrayLike = VIEW,
+    as_given: bool = False,
+    **_,
 ) -> Floats:
     """exp(-tan^2 g / m^2) / (4 pi m^2 sqrt((N.L)(N.V))), cos g = N.H; 0 where N.L or N.V <= 0."""
     normal, light, view = _direction(normal, as_given), unit(light), unit(view)
     nl, nv = dot(normal, light), dot(normal, view)
     lit = (nl > 0) & (nv > 0)
-    shape = ward_lobe(dot(normal, halfway(light, view)), roughness)
-    return np.where(lit, shape / (4 * pi * roughness**2 * np.sqrt(np.where(lit, nl * nv, 1))), 0)
+    nh = dot(normal, halfway(light, view))
+    slopes = shape(nh) if shape else ward_lobe(nh, roughness)
+    return np.where(lit, slopes / (4 * pi * roughness**2 * np.sqrt(np.where(lit, nl * nv, 1))), 0)
 
 
 def _direction(normal: ArrayLike, as_given: bool) -> Floats:
@@ -183,6 +213,7 @@ def light_channels(
     f0: float = 1,
     scale: float = 1,
     cosine: bool = False,
+    shape: Shape | None = None,
     view: ArrayLike = VIEW,
     as_given: bool = False,
 ) -> Floats:
@@ -191,9 +222,9 @@ def light_channels(
     Specular light is multiplied by ``scale`` and, with ``cosine``, by max(0, N.L) (the modified rows of P3's table).
     ``golden.material.Material.channels`` fills these in.
     """
-    parameters = {"shininess": shininess, "roughness": roughness, "f0": f0, "view": view, "as_given": as_given}
     facing = diffuse(normal, light, as_given=as_given)
-    specular = scale * MODELS[model](normal, light, **parameters)
+    parameters = {"shininess": shininess, "roughness": roughness, "f0": f0, "shape": shape}
+    specular = scale * MODELS[model](normal, light, **parameters, view=view, as_given=as_given)
     return np.stack([facing, specular * np.maximum(facing, 0) if cosine else specular], axis=-1)
 
 

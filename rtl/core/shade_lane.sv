@@ -8,9 +8,8 @@
 //
 //   s_axis_span    LINE packet: normal and increment, S2.29; 1 .. 4096 pixels (the caller's duty); tag; P2's flat bit
 //   m_axis_pixel   tdata = {specular, diffuse}, U0.16; tuser = tag; tlast = last pixel of the span
-//   draw_i         settings of the draw call, see docs/registers.md; must not change while busy_o
-//   flags_o        in the clock of lit_o, the node's LANE_* faults;  lit_o: light of a node or pixel is done
-//   busy_o         a span is inside
+//   draw_i         settings of the draw call, see docs/registers.md; must not change while a span is inside
+//   lit_o          light of a node, or of a pixel, is done; flags_o: bits LIGHT_*, LANE_* of it
 //
 // Nodes are prepared while earlier pixels are drawn. Every pipeline keeps going: what enters one has a credit for its place
 // in the FIFO behind it. No combinational path leads from an input to an output.
@@ -37,15 +36,15 @@ module shade_lane #(
   output logic [       shade_pkg::TAG_W-1:0] m_axis_pixel_tuser,
   output logic                               m_axis_pixel_tlast,
   output logic                               lit_o,
-  output logic [shade_pkg::LANE_FLAGS_W-1:0] flags_o,
-  output logic                               busy_o
+  output logic [shade_pkg::LANE_FLAGS_W-1:0] flags_o
 );
   if (PATH_NORMALS < 0 || PATH_NORMALS > 1) begin : g_check
     $error("shade_lane: PATH_NORMALS must be 0 or 1");
   end
 
   localparam int W = shade_pkg::INTENSITY_W;
-  localparam int STEPS_W = 3 * shade_pkg::STEP_W;
+  localparam int STEP_W = shade_pkg::STEP_W;
+  localparam int STEPS_W = 3 * STEP_W;
   localparam int COUNT_W = shade_pkg::COUNT_W;
   localparam int DEGREE_W = shade_pkg::DEGREE_W;
   localparam int TAG_W = shade_pkg::TAG_W;
@@ -92,7 +91,9 @@ module shade_lane #(
   logic [DEGREE_W-1:0] degree, last_degree;
   logic [PLAN_W-1:0] plan;
   shade_planner u_planner (
-    .clk_i, .rst_i, .valid_i(accept), .g_i(s_axis_span_tdata[STEPS_W+:STEPS_W]), .count_i(count), .flat_i(flat),
+    .clk_i, .rst_i, .valid_i(accept), .gx_i(s_axis_span_tdata[STEPS_W+:STEP_W]),
+    .gy_i(s_axis_span_tdata[STEPS_W+STEP_W+:STEP_W]), .gz_i(s_axis_span_tdata[STEPS_W+2*STEP_W+:STEP_W]),
+    .count_i(count), .flat_i(flat),
     .t1_i(draw_i.t1), .t2_i(draw_i.t2), .t3_i(draw_i.t3), .mantissa_i(draw_i.sharpness),
     .exponent_i(draw_i.sharpness_exp), .fixed_degree_i(draw_i.fixed_degree), .valid_o(planned), .main_o(main),
     .log2_o(log2), .degree_o(degree), .last_count_o(last_count), .last_log2_o(last_log2), .last_degree_o(last_degree)
@@ -132,7 +133,6 @@ module shade_lane #(
   logic pixel_valid, pixel_ready, pixel_last, line_ready;
   logic [3*W-1:0] pixel;
   logic [TAG_W-1:0] pixel_tag;
-  logic [shade_pkg::LINE_ERROR_W-1:0] line_error;
   if (PATH_NORMALS == 1) begin : g_normals
     logic [RECORD_LOG2:0] credit_q, credit_d;
     logic [shade_pkg::NORMAL_DATA_W-1:0] data;
@@ -152,7 +152,7 @@ module shade_lane #(
       .s_axis_line_tvalid(s_axis_span_tvalid && normals), .s_axis_line_tready(line_ready),
       .s_axis_line_tdata(s_axis_span_tdata), .m_axis_normal_tvalid(pixel_valid), .m_axis_normal_tready(pixel_ready),
       .m_axis_normal_tdata(data), .m_axis_normal_tuser(pixel_tag), .m_axis_normal_tlast(pixel_last),
-      .error_o(line_error), .error_count_o()
+      .error_o(), .error_count_o()
     );
     logic unused_data;
     assign unused_data = &{1'b0, data};
@@ -163,7 +163,6 @@ module shade_lane #(
     assign line_ready  = 1'b0;
     assign pixel       = (3 * W)'(0);
     assign pixel_tag   = TAG_W'(0);
-    assign line_error  = shade_pkg::LINE_ERROR_W'(0);
   end
   assign s_axis_span_tready = normals ? line_ready : some_place_q;
 
@@ -190,7 +189,7 @@ module shade_lane #(
     .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
   );
   shade_delay #(.WIDTH(2), .DEPTH(LATENCY_LIGHT)) u_fault (.clk_i, .d_i(fault_q), .q_o(fault));
-  assign flags_o = {line_error[shade_pkg::LINE_ERROR_THRESHOLD:shade_pkg::LINE_ERROR_METRIC], fault, light_flags};
+  assign flags_o = {fault, light_flags};
 
   // what a node is to its record waits in a FIFO: cheaper than a register for every clock of the way
   logic meta_valid;
@@ -221,20 +220,6 @@ module shade_lane #(
     .m_axis_pixel_tvalid, .m_axis_pixel_tready, .m_axis_pixel_tdata, .m_axis_pixel_tuser, .m_axis_pixel_tlast,
     .error_o(), .error_count_o()
   );
-
-  // ---- spans inside ------------------------------------------------------------------------------------------
-  logic [15:0] inside_q;
-  logic in, out;
-  assign in  = s_axis_span_tvalid && s_axis_span_tready;
-  assign out = m_axis_pixel_tvalid && m_axis_pixel_tready && m_axis_pixel_tlast;
-  always_ff @(posedge clk_i) begin
-    inside_q <= inside_q + 16'(in) - 16'(out);
-    busy_o   <= inside_q != '0 || in;
-    if (rst_i) begin
-      inside_q <= '0;
-      busy_o   <= 1'b0;
-    end
-  end
 
   logic unused_meta;
   assign unused_meta = &{1'b0, meta_valid};

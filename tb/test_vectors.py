@@ -53,12 +53,19 @@ BOUND = {
     "shade_halfway": 4.25,  # 1/2, and H's 5/8 times the sum of V's components; of unit vectors at most 1.6, see below
     "shade_fresnel": 1,
     "shade_colour": 1 / 2,
+    "shade_angles": 1 / 2,
+    "shade_geometry": 2.6,  # of 1 + w: the root's 0.85/4 and d's 1/2, times 2.83 by squaring and doubling, and 1/2
+    "shade_gain": 2.5,  # 1/2, and the rounding of a factor of at least 1/2, in light of at most 2
+    "shade_reflectance": 4.5,  # the two above together, 2^-15 of light of at most 2, and 1/2
+    "shade_light": 4.5,
+    "shade_light_local": 4.5,
 }
 NEEDS_FULL = {
     *(name for name in BOUND if name.startswith(("shade_coef", "shade_horner"))),
     *("shade_fdiff", "shade_rsqrt", "shade_normalize", "shade_dot3", "shade_scale3", "shade_bisect", "shade_midpoint"),
     *("shade_node_chain", "shade_criterion", "shade_increment", "shade_versine", "shade_reflect"),
-    *("shade_halfway", "shade_fresnel", "shade_colour"),
+    *("shade_halfway", "shade_fresnel", "shade_colour", "shade_angles", "shade_geometry", "shade_gain"),
+    *("shade_light", "shade_light_local"),
 }
 
 

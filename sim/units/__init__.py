@@ -1,9 +1,9 @@
 """Every arithmetic unit with its golden twin, the exact value of its formula, and vectors: for tests and report.
 
-One file a folder of ``rtl/``; ``case`` says what is measured and makes the vectors.
+One file a folder of ``rtl/``, of ``light`` two; ``case`` says what is measured and makes the vectors.
 """
 
-from sim.units import fixed, light, normal, plan, poly, stream
+from sim.units import fixed, light, normal, plan, poly, reflectance, stream
 from sim.units.case import FORMS, Case, Result
 from sim.units.normal import unit_vectors
 from sim.units.stream import check_pixel_normals, check_poly_span
@@ -13,4 +13,4 @@ __all__ = ["FORMS", "Case", "Result", "cases", "check_pixel_normals", "check_pol
 
 def cases() -> list[Case]:
     """All cases of all units, both forms, in the order of the data's way."""
-    return [case for part in (fixed, stream, poly, normal, plan, light) for case in part.cases()]
+    return [case for part in (fixed, stream, poly, normal, plan, light, reflectance) for case in part.cases()]

@@ -55,7 +55,8 @@ class Case:
 
     ``golden``, ``exact``, ``ideal``: inputs -> outputs by port name; ``vectors(rng, rows)`` makes random inputs,
     ``all_vectors`` yields every input. ``latency``: declared; of every single vector. ``unit_f``: fraction bits of
-    the outputs, ``more_f``: of those ports that have others.
+    the outputs, ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in
+    it. ``note``: what sets apart cases of the same point.
     """
 
     module: str
@@ -70,18 +71,21 @@ class Case:
     clocks_per_vector: int = 1
     unit_f: int = k.INTENSITY_F
     more_f: dict[str, int] = field(default_factory=dict)
+    chunk: int = CHUNK
+    note: str = ""
 
     def __str__(self) -> str:
         point = ",".join(f"{name}={value}" for name, value in self.parameters.items())
-        return f"{self.module}/{self.form}{f'[{point}]' if point else ''}{'' if self.vectors else '/all'}"
+        kind = f"/{self.note}" * bool(self.note) + "/all" * (not self.vectors)
+        return f"{self.module}/{self.form}{f'[{point}]' if point else ''}{kind}"
 
     def stream(self, vectors: int, seed: int) -> Iterator[Arrays]:
         """The vectors of a run, chunk by chunk: all there are, or ``vectors`` of a seed."""
         if self.all_vectors:
             yield from self.all_vectors()
             return
-        for chunk, first in enumerate(range(0, vectors, CHUNK)):
-            yield self.vectors(np.random.default_rng([seed, chunk]), min(CHUNK, vectors - first))
+        for chunk, first in enumerate(range(0, vectors, self.chunk)):
+            yield self.vectors(np.random.default_rng([seed, chunk]), min(self.chunk, vectors - first))
 
     def check(self, vectors: int = CHUNK, seed: int = 1, tick: Callable[[int], object] = lambda rows: None) -> Result:
         """Run the vectors through RTL, golden model and exact formula. ``tick`` is told the rows that are done."""

@@ -1,0 +1,320 @@
+"""Light at a node in six models: its angles, quotients and gain, and the whole.
+
+Settings hold for a run: each has a material of its own, so that ten million vectors see forty of each model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from golden import contract as k
+from golden import fixed, light, material
+from golden.reference.light import ROWS
+from sim.units.case import FORMS, ONE, Arrays, Case, in_forms, mixed, signed_range
+from sim.units.normal import unit_vectors
+
+Real = np.float64  # no value here needs more than 53 bits to be right within 2^-30 ulp
+CHUNK = 250_000
+FEW = 62_500  # rows of a run where one case has all models
+CODES = range(1 << k.MODEL_W)  # reserved ones too
+NAMES = {code: name for name, code in material.MODELS.items()}
+LIMITS = signed_range(k.INTENSITY_W)
+COSINE = (0, ONE)
+SAFE = ONE >> 4  # N.L and N.V from which on the ideal function is compared: both quotients grow without limit towards 0
+
+
+def registers(rng: np.random.Generator, code: int, form: str, direction=None) -> dict[str, int]:
+    """Register values of a random material of a model; reserved codes have those of Blinn's."""
+    name = NAMES.get(code, "blinn")
+    rows = ["none", *(row for row in ROWS if row.partition("-")[0] == name)]
+    shininess, roughness, f0 = 2 ** rng.uniform(0, 10), rng.uniform(0.05, 0.7), rng.uniform(0, 1)
+    surface = material.Material(name, shininess, roughness, f0, rng.choice(rows), form=form)
+    return material.registers(surface, direction) | {"model": code}
+
+
+def normals(rng: np.random.Generator, rows: int, *towards: np.ndarray) -> np.ndarray:
+    """(3, rows) unit vectors: all directions, close to those named and these themselves; and any components."""
+    kind = rng.integers(0, 16, rows)
+    aim = np.stack(np.broadcast_arrays(*(np.reshape(v, (3, -1)) for v in towards), np.zeros((3, rows)))[:-1])
+    aim = aim[rng.integers(0, len(towards), rows), :, np.arange(rows)].T
+    bent = aim + rng.standard_normal((3, rows)) * np.ldexp(float(ONE), -rng.integers(0, 12, rows))
+    close = np.rint(bent / np.linalg.norm(bent, axis=0) * ONE)
+    anything = rng.integers(*LIMITS, (3, rows), endpoint=True)
+    return np.select([kind == 0, kind == 1, kind < 8], [anything, aim, close], unit_vectors(rng, rows)).astype(np.int64)
+
+
+def pack(vector: np.ndarray) -> np.ndarray:
+    """x, y, z as one word, at bit 0, 18, 36."""
+    return sum((part & (1 << k.INTENSITY_W) - 1) << k.INTENSITY_W * i for i, part in enumerate(vector))
+
+
+def unpack(word: np.ndarray) -> np.ndarray:
+    """The vector (3, rows) of :func:`pack`."""
+    parts = np.stack([word >> k.INTENSITY_W * i for i in range(3)]) & (1 << k.INTENSITY_W) - 1
+    return parts - ((parts >> k.INTENSITY_W - 1) << k.INTENSITY_W)
+
+
+def ports(rows: int, **values) -> Arrays:
+    """Values by name as inputs of so many rows; vectors (3, rows) as three components."""
+    named = {}
+    for name, value in values.items():
+        parts = zip((name + c for c in "xyz"), value, strict=True) if np.ndim(value) > 1 else [(name, value)]
+        named |= {f"{part}_i": np.broadcast_to(v, rows) for part, v in parts}
+    return named
+
+
+def words(i: Arrays, *names: str) -> dict[str, int]:
+    """Settings by name, those of the material and others: numbers."""
+    return {name: int(i[f"{name}_i"][0]) for name in (*light.MATERIAL, *names)}
+
+
+def vector(i: Arrays, name: str) -> np.ndarray:
+    """The vector (3, rows) of three ports, or of a packed one."""
+    return unpack(i[f"{name}_i"]) if f"{name}_i" in i else np.stack([i[f"{name}{c}_i"] for c in "xyz"])
+
+
+# ---- exact values ------------------------------------------------------------------------------------------------
+
+
+def quotient(code: int, x, nl, nv, vh, inv_n, inv_n_exp) -> np.ndarray:
+    """What num of ``golden.light.geometry`` is divided by, inverted; N.H and r rounded as its docstring says."""
+    x, nl, nv, vh = (np.asarray(v, np.int64) for v in (x, nl, nv, vh))
+    nh = np.maximum(fixed.round((1 << k.VERSINE_F) - x, k.VERSINE_F - k.INTENSITY_F), 0)
+    large, small = np.maximum(nl, nv), np.minimum(nl, nv)
+    with np.errstate(divide="ignore"):
+        if code == k.MODEL_SCHLICK:
+            r = fixed.round(nh * inv_n, k.INTENSITY_F).astype(Real) / ONE
+            return 1 / (np.minimum(x, (2 << k.VERSINE_F) - 1).astype(Real) / (1 << k.VERSINE_F - inv_n_exp) + r)
+        product = large.astype(Real) * small / ONE**2
+        if code == k.MODEL_COOK_TORRANCE:
+            masked = 2 * nh * small < vh * ONE
+            return np.where(masked, 2 / (large.astype(Real) * np.maximum(vh, 1) / ONE**2), 1 / product)
+        return 1 / np.sqrt(product) if code == k.MODEL_WARD else np.ones(x.shape, Real)
+
+
+def amplified(shape, num, fresnel, factor, gain: int, gain_exp: int) -> np.ndarray:
+    """shape num fresnel, cut to 32 fraction bits, times factor and gain, limited to what S1.16 holds, in ulp."""
+    product = shape * num * fresnel >> k.INTENSITY_F
+    value = product.astype(Real) * np.where(product > 0, factor, 0) * np.ldexp(Real(gain), gain_exp)
+    return np.ldexp(value, -2 * k.INTENSITY_F).clip(0, LIMITS[1])
+
+
+def exact_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str) -> Arrays:  # noqa: E741
+    """Light from the angles and the lobe as they are rounded, the rest exactly; flags of the golden model."""
+    _, specular, flags = light.reflectance(n, l, v, h, vh, fresnel, material_, FORMS[form])
+    if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
+        return {"diffuse_o": _dot(n, l) * ONE, "specular_o": specular, "flags_o": flags}
+    _, nl, nv, x, *_, lost = light.angles(code == k.MODEL_PHONG, n, l, v, h, FORMS[form])
+    shape = (
+        ONE if code == k.MODEL_SCHLICK else light.lobe(x, *(material_[name] for name in ("k1", "k2", "shift", "xmax")))
+    )
+    more = [material_[name] for name in ("inv_n", "inv_n_exp")]
+    num = light.geometry(code, x, nl, nv, vh, material_["cosine"], *more)[0]
+    factor = quotient(code, x, nl, nv, vh, *more)
+    shape = np.where(lost & (code > k.MODEL_PHONG), 0, shape)
+    value = amplified(shape, num, fresnel, factor, material_["gain"], material_["gain_exp"])
+    return {"diffuse_o": _dot(n, l) * ONE, "specular_o": value, "flags_o": flags}
+
+
+def ideal_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str) -> Arrays:  # noqa: E741
+    """The formulas of the *true* unit vectors, with the lobe that the registers stand for.
+
+    Where N is no unit vector, or N.L or N.V is below 1/16, those of :func:`exact_light`.
+    """
+    rounded = exact_light(code, material_, n, l, v, h, vh, fresnel, form)
+    if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
+        return rounded
+    lengths = [np.sqrt(np.sum(np.square(np.asarray(vector, Real)), axis=0)) for vector in (n, l, v, h)]
+    clear = np.abs(lengths[0] / ONE - 1) < 2 / ONE
+    n, l, v, h = (np.asarray(u, Real) / np.maximum(length, 1) for u, length in zip((n, l, v, h), lengths, strict=True))  # noqa: E741
+    nl, nv, nh, vh = _sum(n, l), _sum(n, v), _sum(n, h), _sum(v, h)
+    clear = clear & (nl >= SAFE / ONE) & (nv >= SAFE / ONE) & (vh > 0)
+    nl, nv, vh = (np.where(clear, c, 1) for c in (nl, nv, vh))
+    x = 1 - (2 * nl * _sum(n, v) - _sum(l, v) if code == k.MODEL_PHONG else nh)
+    g = {
+        k.MODEL_COOK_TORRANCE: lambda: np.minimum(1, 2 * nh.clip(0) * np.minimum(nl, nv) / vh) / (nl * nv),
+        k.MODEL_WARD: lambda: 1 / np.sqrt(nl * nv),
+    }.get(code, lambda: np.where(material_["cosine"], nl, 1))()
+    if code == k.MODEL_SCHLICK:
+        shape = nh.clip(0) / (x / (material_["inv_n"] / ONE) * 2.0 ** material_["inv_n_exp"] + nh.clip(0))
+    else:
+        shape = _lobe(x, **{name: material_[name] for name in ("k1", "k2", "shift", "xmax")})
+    value = shape * g * fresnel * np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
+    return rounded | {"specular_o": np.where(clear, value.clip(0, LIMITS[1]), rounded["specular_o"])}
+
+
+def _lobe(x: np.ndarray, k1: int, k2: int, shift: int, xmax: int) -> np.ndarray:
+    for_x, for_k = (1, 1 << k.LOBE_FINE_F) if shift == k.LOBE_FINE else (1 << shift, 1)
+    limited = np.minimum(x * for_x, xmax / ONE)
+    base = 1 - (k1 / (1 << k.LOBE_K1_F) - k2 / (1 << k.LOBE_K2_F) * limited) * limited / for_k
+    return np.where(x <= 1, base.clip(0, 1) ** 16, 0)
+
+
+def _sum(a, b) -> np.ndarray:
+    return np.sum(np.asarray(a) * np.asarray(b), axis=0)
+
+
+def _dot(a, b) -> np.ndarray:
+    """The dot product of two vectors S1.16, limited to what S1.16 holds, as a number."""
+    return (_sum(np.asarray(a, Real), b) / ONE).clip(*LIMITS) / ONE
+
+
+# ---- the units ---------------------------------------------------------------------------------------------------
+
+
+def _angles(form: str) -> Iterator[Case]:
+    names = ("diffuse_o", "nl_o", "nv_o", "x_o", "saturated_o", "nl_range_o", "nv_range_o", "x_range_o", "lost_o")
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        l, v = unit_vectors(rng, 2).T  # noqa: E741
+        h = light.halfway(*l, *v)[:3]
+        packed = {name: pack(u) for name, u in zip("nlvh", (normals(rng, rows, l, v, h), l, v, h), strict=True)}
+        return ports(rows, mirror=int(rng.integers(0, 2)), **packed)
+
+    def golden(i: Arrays) -> Arrays:
+        values = light.angles(i["mirror_i"], *(vector(i, name) for name in "nlvh"), FORMS[form])
+        return dict(zip(names, values, strict=True))
+
+    def exact(i: Arrays) -> Arrays:
+        """x of R as shade_reflect rounds it."""
+        n, l, v, h = (vector(i, name) for name in "nlvh")  # noqa: E741
+        a, b = (np.stack(light.reflect(*n, *l)), v) if i["mirror_i"][0] else (n, h)
+        chord = ((a - b).clip(*LIMITS).astype(Real) ** 2).sum(axis=0) / 2
+        x = chord if form == "refined" else ONE**2 - _sum(a.astype(Real), b)
+        cosines = [_dot(n, l) * ONE, *((_sum(n, other).astype(Real) / ONE).clip(0, ONE) for other in (l, v))]
+        x = np.ldexp(x, k.VERSINE_F - 2 * k.INTENSITY_F).clip(0, 2 << k.VERSINE_F)
+        return golden(i) | dict(zip(names, (*cosines, x), strict=False))
+
+    yield Case(
+        "shade_angles", form, {"FORM": FORMS[form]}, golden, exact, exact, vectors, None, k.LATENCY_ANGLES,
+        more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
+    )  # fmt: skip
+
+
+def _factors(form: str) -> Iterator[Case]:
+    """What the lobe is multiplied by; and the product."""
+    if form != "refined":
+        return
+
+    def sized(rng: np.random.Generator, rows: int, *names: str, top: int = ONE) -> Arrays:
+        values = mixed(dict.fromkeys((f"{name}_i" for name in names), (0, top)), top)(rng, rows)
+        return {name: value >> np.maximum(rng.integers(-12, 18, rows), 0) for name, value in values.items()}
+
+    def cosines(rng: np.random.Generator, rows: int) -> Arrays:
+        code = int(rng.integers(0, len(CODES)))
+        settings = registers(rng, code, form)
+        named = ports(rows, **{name: settings[name] for name in ("model", "cosine", "inv_n", "inv_n_exp")})
+        return named | sized(rng, rows, "x", top=2 << k.VERSINE_F) | sized(rng, rows, "nl", "nv", "vh")
+
+    def arguments(i: Arrays) -> list[np.ndarray]:
+        return [i[f"{name}_i"] for name in ("x", "nl", "nv", "vh")]
+
+    def geometry(i: Arrays) -> Arrays:
+        settings = (i[f"{name}_i"][0] for name in ("cosine", "inv_n", "inv_n_exp"))
+        values = light.geometry(i["model_i"][0], *arguments(i), *settings)
+        shape = i["x_i"].shape
+        return {
+            name: np.broadcast_to(v, shape) for name, v in zip(("num_o", "w_o", "e_o", "zero_o"), values, strict=True)
+        }
+
+    def divided(i: Arrays) -> Arrays:
+        golden = geometry(i)
+        settings = (int(i[f"{name}_i"][0]) for name in ("inv_n", "inv_n_exp"))
+        q = quotient(int(i["model_i"][0]), *arguments(i), *settings)
+        w = np.ldexp(np.where(golden["num_o"] > 0, np.ldexp(q, -golden["e_o"]) - 1, 0), k.FACTOR_F)
+        return golden | {"w_o": np.where(golden["num_o"] > 0, w, golden["w_o"])}
+
+    yield Case(
+        "shade_geometry", form, {}, geometry, divided, divided, cosines, None, k.LATENCY_GEOMETRY,
+        more_f={"w_o": k.FACTOR_F}, chunk=FEW,
+    )  # fmt: skip
+
+    def factors(rng: np.random.Generator, rows: int) -> Arrays:
+        exponent = int(rng.integers(*signed_range(k.GAIN_EXP_W), endpoint=True))
+        low, high = signed_range(k.FACTOR_EXP_W)
+        near = (rng.integers(-8, 20, rows) - exponent).clip(low, high)
+        e = np.where(rng.random(rows) < 0.25, rng.integers(low, high, rows, endpoint=True), near)
+        w = mixed({"w_i": (-(1 << k.FACTOR_F - 1), 0)})(rng, rows)
+        gain = int(rng.integers(1 << k.GAIN_F, 2 << k.GAIN_F))
+        return ports(rows, gain=gain, gain_exp=exponent) | sized(rng, rows, "lobe", "num", "fresnel") | w | {"e_i": e}
+
+    def gain(i: Arrays) -> Arrays:
+        values = light.gain(*(i[f"{name}_i"] for name in ("lobe", "num", "w", "e", "fresnel", "gain", "gain_exp")))
+        return dict(zip(("s_o", "saturated_o"), values, strict=True))
+
+    def product(i: Arrays) -> Arrays:
+        exponent = np.minimum(i["e_i"] + i["gain_exp_i"], 31)
+        factor = np.ldexp(1 + i["w_i"].astype(Real) / (1 << k.FACTOR_F), exponent)
+        value = amplified(i["lobe_i"], i["num_i"], i["fresnel_i"], factor, i["gain_i"][0], 0)
+        return gain(i) | {"s_o": value}
+
+    yield Case("shade_gain", form, {}, gain, product, product, factors, None, k.LATENCY_GAIN, chunk=FEW)
+
+
+def _nodes(form: str) -> Iterator[Case]:
+    """Whole nodes: each model by itself where light is directional, all in turn where it is not."""
+    outputs = ("diffuse_o", "specular_o", "flags_o")
+
+    def case(module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "") -> Case:
+        """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs."""
+
+        def golden(i: Arrays) -> Arrays:
+            return dict(zip(outputs, light.reflectance(*inner(i), words(i), FORMS[form]), strict=True))
+
+        def formula(of: Callable) -> Callable[[Arrays], Arrays]:
+            return lambda i: of(int(i["model_i"][0]), words(i), *inner(i), form)
+
+        return Case(
+            module, form, {"FORM": FORMS[form]}, golden, formula(exact_light), formula(ideal_light), vectors, None,
+            latency, chunk=chunk, note=note,
+        )  # fmt: skip
+
+    for code, name in NAMES.items():
+
+        def directional(rng: np.random.Generator, rows: int, code: int = code) -> Arrays:
+            direction = rng.standard_normal(3)
+            settings = registers(rng, code, form, direction)
+            settings.pop("f0")
+            l, h = ([settings[u + c] for c in "xyz"] for u in "lh")  # noqa: E741
+            return ports(rows, n=normals(rng, rows, l, h, [0, 0, ONE]), **settings)
+
+        def settled(i: Arrays) -> tuple:
+            l, h = ([int(i[f"{u}{c}_i"][0]) for c in "xyz"] for u in "lh")  # noqa: E741
+            l, h = (np.reshape(u, (3, 1)) for u in (l, h))  # noqa: E741
+            return vector(i, "n"), l, np.reshape([0, 0, ONE], (3, 1)), h, int(i["vh_i"][0]), ONE
+
+        yield case("shade_light", directional, settled, k.LATENCY_LIGHT, CHUNK, name)
+
+    def local(rng: np.random.Generator, rows: int) -> Arrays:
+        l, v = unit_vectors(rng, rows), unit_vectors(rng, rows)  # noqa: E741
+        v[:, ::64] = -l[:, ::64]
+        h = np.stack(light.halfway(*l, *v)[:3])
+        settings = registers(rng, int(rng.integers(0, len(CODES))), form)
+        return ports(rows, n=normals(rng, rows, l, v, np.where(h.any(axis=0), h, l)), l=l, v=v, **settings)
+
+    def between(i: Arrays) -> tuple:
+        n, l, v = (vector(i, name) for name in "nlv")  # noqa: E741
+        *h, vh, _ = light.halfway(*l, *v)
+        return n, l, v, np.stack(h), vh, light.fresnel(vh, i["f0_i"][0])
+
+    yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW)
+
+    def packed(rng: np.random.Generator, rows: int) -> Arrays:
+        l, v = unit_vectors(rng, 2).T  # noqa: E741
+        *h, vh, _ = light.halfway(*l, *v)
+        settings = registers(rng, int(rng.integers(0, len(CODES))), form)
+        settings.pop("f0")
+        vectors = {name: pack(u) for name, u in zip("nlvh", (normals(rng, rows, l, v, h), l, v, h), strict=True)}
+        return ports(rows, **vectors, vh=vh, fresnel=int(rng.integers(*COSINE, endpoint=True)), **settings)
+
+    def given(i: Arrays) -> tuple:
+        return *(vector(i, name) for name in "nlvh"), int(i["vh_i"][0]), int(i["fresnel_i"][0])
+
+    yield case("shade_reflectance", packed, given, k.LATENCY_LIGHT, FEW)
+
+
+def cases() -> Iterator[Case]:
+    """The cases of light in six models."""
+    return in_forms(_angles, _factors, _nodes)

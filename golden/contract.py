@@ -112,6 +112,7 @@ NORMAL_FIFO_LOG2 = 6  # normals that shade_pixel_normals can hold back: more tha
 NODE_F = 15  # interpolated normals at the nodes, S2.15: before normalizing they may be longer than 1
 SPAN_FIFO_LOG2 = 6  # spans that wait for the walk along their nodes: more than the planner's latency
 RECORD_FIFO_LOG2 = 7  # records that wait for shade_poly_span: more than the latency from a node to its light
+PHONG_FIFO_LOG2 = 7  # pixels that shade_phong can hold back: more than its latency
 FIFO_LOG2 = 5  # pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 
 # ---- planner ---------------------------------------------------------------------------------------------------
@@ -148,6 +149,7 @@ LINE_COS_LSB = 224  # cosine between the line's end normals, S1.16, for d1a
 LINE_FLAT = 242  # the triangle passed P2's criterion: its normals need no normalizing in diffuse light
 NORMAL_DATA_W = 64  # x, y, z, S1.16, at bit 0, 18, 36
 PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
+COLOUR_DATA_W = 3 * PIXEL_W  # red in the low third, then green, blue
 
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
 LATENCY_MUL = 2  # partial products, their sum
@@ -197,6 +199,17 @@ LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 3  # the next run's step, the run, the rounding
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
+LATENCY_PAINT = LATENCY_COLOUR + LATENCY_FIFO
+LATENCY_PHONG = 1 + LATENCY_INCREMENT + LATENCY_NORMALIZE + LATENCY_LIGHT + 1 + LATENCY_FIFO  # span, ..., clamp, FIFO
+
+# ---- products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric ------------
+PRODUCTS_KAPPA = 4  # for each new increment
+PRODUCTS_NORMALIZE = 11
+PRODUCTS_UNIT = 8
+PRODUCTS_LIGHT = 15  # shade_light without the following two
+PRODUCTS_REFLECT = 3  # more with REFLECT = 1
+PRODUCTS_DIVIDE = 6  # more with DIVIDE = 1
+PRODUCTS_HORNER = 6  # of a channel of a pixel; forward differences: none
 
 # ---- error bits of shade_poly_span; of shade_pixel_normals the first two and those below -------------------------
 ERROR_EMPTY = 0  # a span of 0 pixels
@@ -212,9 +225,7 @@ LINE_ERROR_W = 4
 # ---- what a lane tells of a node, beside and above the bits LIGHT_* --------------------------------------------------
 LANE_NORMAL_ZERO = 4  # a normal of length 0
 LANE_NORMAL_SHORT = 5  # a normal too short to be brought to length 1
-LANE_METRIC = 6  # LINE_ERROR_METRIC
-LANE_THRESHOLD = 7  # LINE_ERROR_THRESHOLD
-LANE_FLAGS_W = 8
+LANE_FLAGS_W = 6
 
 
 def constants() -> dict[str, int]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from golden import contract as k
 from golden.fixed import Int, integers, saturate
-from golden.light import light
+from golden.light import colour, light
 from golden.normal import pixel_normals, unit
 from golden.plan import Nodes, node_walk, planner
 from golden.poly import poly_span
@@ -53,8 +53,9 @@ def lane(
 ) -> Drawn:  # fmt: skip
     """The pixels of spans of 1 .. 4096 pixels: ``n``, ``g`` (S, 3) S2.29, normal and increment (``shade_lane``).
 
-    ``draw``: settings by the names of ``golden.registers``, others as reset leaves them. ``flat``: the triangle passed P2's criterion: with Lambert's
-    light alone a line without normalizing. ``cosine``: of the span's ends, S1.16, for V1 and V2 of path normals.
+    ``draw``: settings by the names of ``golden.registers``, others as reset leaves them. ``flat``: the triangle passed
+    P2's criterion: with Lambert's light alone a line without normalizing. ``cosine``: of the span's ends, S1.16, for V1
+    and V2 of path normals.
 
     >>> from golden.material import Material, planner_registers, registers
     >>> surface = Material("lambert")
@@ -82,3 +83,70 @@ def lane(
     records = collect(nodes, np.stack([diffuse, specular], -1))
     pixels, record = poly_span(records, nodes.degree, nodes.count, evaluator=evaluator, form=form)
     return Drawn(pixels, nodes.span[record], flags, len(nodes.span))
+
+
+def paint(pixels: ArrayLike, draw: Mapping[str, int]) -> Int:
+    """Coloured pixels (P, 3), U0.16, from diffuse and specular light (P, 2), U0.16 (``shade_paint``).
+
+    With ``colour`` set in ``draw`` red, green, blue; else the light as it is, and 0.
+
+    >>> paint([[32768, 0]], {"colour": 1, "ambient_r": 6554}).tolist()
+    [[39322, 32768, 32768]]
+    """
+    (pixels,) = integers(pixels)
+    draw = after_reset() | dict(draw)
+    if not draw["colour"]:
+        return np.pad(pixels, ((0, 0), (0, 1)))
+    weights = ([draw[f"{name}_{channel}"] for channel in "rgb"] for name in ("ambient", "kd", "ks"))
+    return colour(pixels[:, :1], pixels[:, 1:], *weights)
+
+
+def phong(
+    n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], *, form: int = k.FORM_REFINED,
+    reflect: int = 1, divide: int = 1,
+) -> tuple[Int, Int]:  # fmt: skip
+    """A unit normal and light at every pixel (``shade_phong``): (pixels (P, 2) U0.16, index of their span (P,)).
+
+    Spans as in ``lane``; those of 0 or of more than 4096 pixels give none.
+
+    >>> phong([[0, 0, 1 << 29]], [[0, 0, 0]], [2], {})[0].tolist()  # Lambert's light from the viewer
+    [[65535, 0], [65535, 0]]
+    """
+    normal, span = pixel_normals(n, g, count, 0, k.VARIANT_EXACT, k.METRIC_THRESHOLD)
+    diffuse, specular, _ = light(*normal.T, after_reset() | dict(draw), form, reflect, divide)
+    return saturate(np.stack([diffuse, specular], -1), k.PIXEL_W), span
+
+
+def products(
+    g: ArrayLike, drawn: Drawn, *, evaluator: int = k.EVALUATOR_FDIFF, reflect: int = 1, divide: int = 1
+) -> int:
+    """How many products of two 18-bit numbers ``shade_lane`` executes for what it has drawn on the path of polynomials.
+
+    kappa's of every span whose increment is not that of the span before, those of a normal and of its light at every
+    node, Horner's at every pixel. A wide multiplication counts as the two that it is cut into; squares in the fabric
+    count as well.
+
+    >>> products([[0, 0, 0]], lane([[0, 0, 1 << 29]], [[0, 0, 0]], [2], {}), reflect=0, divide=0)  # 4 + 2 (8 + 15)
+    50
+    """
+    (g,) = integers(g)
+    increments = len(g[:1]) + int(np.count_nonzero(np.any(g[1:] != g[:-1], axis=-1)))
+    evaluation = k.CHANNELS * k.PRODUCTS_HORNER if evaluator == k.EVALUATOR_HORNER else 0
+    return (
+        k.PRODUCTS_KAPPA * increments
+        + (k.PRODUCTS_UNIT + _light_products(reflect, divide)) * len(drawn.flags)
+        + evaluation * len(drawn.pixels)
+    )
+
+
+def phong_products(pixels: int, *, reflect: int = 1, divide: int = 1) -> int:
+    """How many of them ``shade_phong`` executes for so many pixels.
+
+    >>> phong_products(2, reflect=0, divide=0)  # 2 (11 + 15)
+    52
+    """
+    return (k.PRODUCTS_NORMALIZE + _light_products(reflect, divide)) * pixels
+
+
+def _light_products(reflect: int, divide: int) -> int:
+    return k.PRODUCTS_LIGHT + k.PRODUCTS_REFLECT * reflect + k.PRODUCTS_DIVIDE * divide

@@ -10,6 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from golden import contract as k
 from golden.plan import THRESHOLDS
 
@@ -222,6 +225,13 @@ def settings() -> Iterator[Field]:
             yield from (field for field in register.fields if field.name != "clear")
 
 
+def faults() -> Iterator[Field]:
+    """The bits of STATUS that stay until they are cleared: all but ``busy``."""
+    for register in registers():
+        if register.name == "STATUS":
+            yield from register.fields[1:]
+
+
 def after_reset() -> dict[str, int]:
     """The settings by name as reset leaves them."""
     return {field.name: field.reset for field in settings()}
@@ -255,6 +265,23 @@ def pack(values: Mapping[str, int]) -> dict[int, int]:
     if left:
         raise ValueError(f"{next(iter(left))}: no field to write, allowed are those of docs/registers.md")
     return words
+
+
+def pack_draw(values: Mapping[str, int]) -> NDArray[np.uint32]:
+    """All settings as the structure ``shade_pkg::draw_t``: words, least significant first; the first one is at the top.
+
+    Settings that are not named are as reset leaves them. ValueError as in ``pack``.
+
+    >>> int(pack_draw({"ks_b": 5})[0])  # the last one
+    5
+    """
+    if unknown := values.keys() - after_reset().keys():
+        raise ValueError(f"{min(unknown)}: no field to write, allowed are those of docs/registers.md")
+    whole = width = 0
+    for field in settings():
+        whole = whole << field.width | _bits(field, values.get(field.name, field.reset)) >> field.lsb
+        width += field.width
+    return np.frombuffer(whole.to_bytes(-(-width // 32) * 4, "little"), "<u4").astype(np.uint32)
 
 
 def unpack(offset: int, word: int) -> dict[str, int]:

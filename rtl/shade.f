@@ -29,6 +29,7 @@ rtl/poly/shade_poly_span.sv
 rtl/normal/shade_normalize.sv
 rtl/normal/shade_dot3.sv
 rtl/normal/shade_scale3.sv
+rtl/normal/shade_unit.sv
 rtl/normal/shade_half.sv
 rtl/normal/shade_invc.sv
 rtl/normal/shade_bisect.sv
@@ -53,4 +54,9 @@ rtl/light/shade_angles.sv
 rtl/light/shade_reflectance.sv
 rtl/light/shade_light.sv
 rtl/light/shade_light_local.sv
+rtl/core/shade_collect.sv
+rtl/core/shade_paint.sv
+rtl/core/shade_phong.sv
 rtl/core/shade_registers.sv
+rtl/core/shade_lane.sv
+rtl/core/shade_core.sv

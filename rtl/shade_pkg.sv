@@ -5,6 +5,7 @@
 // Latencies are in clocks from an input taken to the output that it causes.
 
 /* verilator lint_off UNUSEDPARAM */  // no single module uses every constant
+/* verilator lint_off UNUSEDSIGNAL */  // nor has a word of registers a setting in every bit
 
 package shade_pkg;
 
@@ -129,6 +130,7 @@ package shade_pkg;
   localparam int NODE_F = 15;  // interpolated normals at the nodes, S2.15: before normalizing they may be longer than 1
   localparam int SPAN_FIFO_LOG2 = 6;  // spans that wait for the walk along their nodes: more than the planner's latency
   localparam int RECORD_FIFO_LOG2 = 7;  // records that wait for shade_poly_span: more than the latency from a node to its light
+  localparam int PHONG_FIFO_LOG2 = 7;  // pixels that shade_phong can hold back: more than its latency
   localparam int FIFO_LOG2 = 5;  // pixels that shade_poly_span can hold back for a stalled consumer: 2^5
 
   // planner
@@ -165,6 +167,7 @@ package shade_pkg;
   localparam int LINE_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
+  localparam int COLOUR_DATA_W = 48;  // red in the low third, then green, blue
 
   // latencies, in clocks from an input taken to the output it causes
   localparam int LATENCY_MUL = 2;  // partial products, their sum
@@ -214,6 +217,17 @@ package shade_pkg;
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
+  localparam int LATENCY_PAINT = 8;
+  localparam int LATENCY_PHONG = 82;  // span, ..., clamp, FIFO
+
+  // products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric
+  localparam int PRODUCTS_KAPPA = 4;  // for each new increment
+  localparam int PRODUCTS_NORMALIZE = 11;
+  localparam int PRODUCTS_UNIT = 8;
+  localparam int PRODUCTS_LIGHT = 15;  // shade_light without the following two
+  localparam int PRODUCTS_REFLECT = 3;  // more with REFLECT = 1
+  localparam int PRODUCTS_DIVIDE = 6;  // more with DIVIDE = 1
+  localparam int PRODUCTS_HORNER = 6;  // of a channel of a pixel; forward differences: none
 
   // error bits of shade_poly_span; of shade_pixel_normals the first two and those below
   localparam int ERROR_EMPTY = 0;  // a span of 0 pixels
@@ -229,9 +243,7 @@ package shade_pkg;
   // what a lane tells of a node, beside and above the bits LIGHT_*
   localparam int LANE_NORMAL_ZERO = 4;  // a normal of length 0
   localparam int LANE_NORMAL_SHORT = 5;  // a normal too short to be brought to length 1
-  localparam int LANE_METRIC = 6;  // LINE_ERROR_METRIC
-  localparam int LANE_THRESHOLD = 7;  // LINE_ERROR_THRESHOLD
-  localparam int LANE_FLAGS_W = 8;
+  localparam int LANE_FLAGS_W = 6;
 
   // registers: byte offset, lowest bit of a field, word after reset
   localparam int REG_ID = 0;  // 0x000, ro
@@ -351,6 +363,219 @@ package shade_pkg;
     logic [16:0] ks_g;
     logic [16:0] ks_b;
   } draw_t;
+  localparam draw_t DRAW_RESET = {
+    1'd0,  // path
+    1'd0,  // colour
+    3'd0,  // variant
+    2'd0,  // fixed_degree
+    17'd65536,  // sharpness
+    4'd0,  // sharpness_exp
+    31'd49152,  // t1
+    31'd327680,  // t2
+    31'd1048576,  // t3
+    18'd58982,  // threshold
+    3'd0,  // model
+    1'd0,  // cosine
+    21'd0,  // k1
+    18'd0,  // k2
+    17'd0,  // xmax
+    3'd0,  // shift
+    17'd0,  // inv_n
+    4'd0,  // inv_n_exp
+    17'd0,  // gain
+    6'd0,  // gain_exp
+    17'd0,  // f0
+    18'd0,  // lx
+    18'd0,  // ly
+    18'd65536,  // lz
+    18'd0,  // hx
+    18'd0,  // hy
+    18'd65536,  // hz
+    17'd65536,  // vh
+    17'd0,  // ambient_r
+    17'd0,  // ambient_g
+    17'd0,  // ambient_b
+    17'd65536,  // kd_r
+    17'd65536,  // kd_g
+    17'd65536,  // kd_b
+    17'd65536,  // ks_r
+    17'd65536,  // ks_g
+    17'd65536  // ks_b
+  };
+
+  // what STATUS remembers
+  typedef struct packed {
+    logic [0:0] error_empty;
+    logic [0:0] error_long;
+    logic [0:0] error_packet;
+    logic [0:0] error_metric;
+    logic [0:0] error_threshold;
+    logic [0:0] light_model;
+    logic [0:0] light_range;
+    logic [0:0] light_zero;
+    logic [0:0] light_saturated;
+    logic [0:0] normal_zero;
+    logic [0:0] normal_short;
+  } status_t;
+
+  // one register of all
+  typedef struct packed {
+    logic [0:0] id;
+    logic [0:0] version;
+    logic [0:0] control;
+    logic [0:0] status;
+    logic [0:0] pixels;
+    logic [0:0] spans;
+    logic [0:0] clocks;
+    logic [0:0] stalls;
+    logic [0:0] evaluations;
+    logic [0:0] errors;
+    logic [0:0] sharpness;
+    logic [0:0] t1;
+    logic [0:0] t2;
+    logic [0:0] t3;
+    logic [0:0] threshold;
+    logic [0:0] model;
+    logic [0:0] k1;
+    logic [0:0] k2;
+    logic [0:0] xmax;
+    logic [0:0] inv_n;
+    logic [0:0] gain;
+    logic [0:0] f0;
+    logic [0:0] lx;
+    logic [0:0] ly;
+    logic [0:0] lz;
+    logic [0:0] hx;
+    logic [0:0] hy;
+    logic [0:0] hz;
+    logic [0:0] vh;
+    logic [0:0] ambient_r;
+    logic [0:0] ambient_g;
+    logic [0:0] ambient_b;
+    logic [0:0] kd_r;
+    logic [0:0] kd_g;
+    logic [0:0] kd_b;
+    logic [0:0] ks_r;
+    logic [0:0] ks_g;
+    logic [0:0] ks_b;
+  } select_t;
+
+  // the register at an offset; nothing where there is none
+  function automatic select_t register_at(input logic [11:0] offset);
+    register_at = {
+      offset == 12'(REG_ID), offset == 12'(REG_VERSION), offset == 12'(REG_CONTROL), offset == 12'(REG_STATUS), offset
+      == 12'(REG_PIXELS), offset == 12'(REG_SPANS), offset == 12'(REG_CLOCKS), offset == 12'(REG_STALLS), offset ==
+      12'(REG_EVALUATIONS), offset == 12'(REG_ERRORS), offset == 12'(REG_SHARPNESS), offset == 12'(REG_T1), offset ==
+      12'(REG_T2), offset == 12'(REG_T3), offset == 12'(REG_THRESHOLD), offset == 12'(REG_MODEL), offset == 12'(REG_K1),
+      offset == 12'(REG_K2), offset == 12'(REG_XMAX), offset == 12'(REG_INV_N), offset == 12'(REG_GAIN), offset ==
+      12'(REG_F0), offset == 12'(REG_LX), offset == 12'(REG_LY), offset == 12'(REG_LZ), offset == 12'(REG_HX), offset ==
+      12'(REG_HY), offset == 12'(REG_HZ), offset == 12'(REG_VH), offset == 12'(REG_AMBIENT_R), offset ==
+      12'(REG_AMBIENT_G), offset == 12'(REG_AMBIENT_B), offset == 12'(REG_KD_R), offset == 12'(REG_KD_G), offset ==
+      12'(REG_KD_B), offset == 12'(REG_KS_R), offset == 12'(REG_KS_G), offset == 12'(REG_KS_B)
+    };
+  endfunction
+
+  // the word of the settings that are selected, else 0
+  function automatic logic [31:0] draw_word(input draw_t draw, input select_t select);
+    draw_word = 32'd0;
+    draw_word[0+:17] |= {17{select[0]}} & draw[0+:17];  // ks_b
+    draw_word[0+:17] |= {17{select[1]}} & draw[17+:17];  // ks_g
+    draw_word[0+:17] |= {17{select[2]}} & draw[34+:17];  // ks_r
+    draw_word[0+:17] |= {17{select[3]}} & draw[51+:17];  // kd_b
+    draw_word[0+:17] |= {17{select[4]}} & draw[68+:17];  // kd_g
+    draw_word[0+:17] |= {17{select[5]}} & draw[85+:17];  // kd_r
+    draw_word[0+:17] |= {17{select[6]}} & draw[102+:17];  // ambient_b
+    draw_word[0+:17] |= {17{select[7]}} & draw[119+:17];  // ambient_g
+    draw_word[0+:17] |= {17{select[8]}} & draw[136+:17];  // ambient_r
+    draw_word[0+:17] |= {17{select[9]}} & draw[153+:17];  // vh
+    draw_word[0+:18] |= {18{select[10]}} & draw[170+:18];  // hz
+    draw_word[0+:18] |= {18{select[11]}} & draw[188+:18];  // hy
+    draw_word[0+:18] |= {18{select[12]}} & draw[206+:18];  // hx
+    draw_word[0+:18] |= {18{select[13]}} & draw[224+:18];  // lz
+    draw_word[0+:18] |= {18{select[14]}} & draw[242+:18];  // ly
+    draw_word[0+:18] |= {18{select[15]}} & draw[260+:18];  // lx
+    draw_word[0+:17] |= {17{select[16]}} & draw[278+:17];  // f0
+    draw_word[0+:17] |= {17{select[17]}} & draw[301+:17];  // gain
+    draw_word[24+:6] |= {6{select[17]}} & draw[295+:6];  // gain_exp
+    draw_word[0+:17] |= {17{select[18]}} & draw[322+:17];  // inv_n
+    draw_word[24+:4] |= {4{select[18]}} & draw[318+:4];  // inv_n_exp
+    draw_word[0+:17] |= {17{select[19]}} & draw[342+:17];  // xmax
+    draw_word[24+:3] |= {3{select[19]}} & draw[339+:3];  // shift
+    draw_word[0+:18] |= {18{select[20]}} & draw[359+:18];  // k2
+    draw_word[0+:21] |= {21{select[21]}} & draw[377+:21];  // k1
+    draw_word[0+:3] |= {3{select[22]}} & draw[399+:3];  // model
+    draw_word[8+:1] |= {1{select[22]}} & draw[398+:1];  // cosine
+    draw_word[0+:18] |= {18{select[23]}} & draw[402+:18];  // threshold
+    draw_word[0+:31] |= {31{select[24]}} & draw[420+:31];  // t3
+    draw_word[0+:31] |= {31{select[25]}} & draw[451+:31];  // t2
+    draw_word[0+:31] |= {31{select[26]}} & draw[482+:31];  // t1
+    draw_word[0+:17] |= {17{select[27]}} & draw[517+:17];  // sharpness
+    draw_word[24+:4] |= {4{select[27]}} & draw[513+:4];  // sharpness_exp
+    draw_word[0+:1] |= {1{select[35]}} & draw[540+:1];  // path
+    draw_word[1+:1] |= {1{select[35]}} & draw[539+:1];  // colour
+    draw_word[4+:3] |= {3{select[35]}} & draw[536+:3];  // variant
+    draw_word[8+:2] |= {2{select[35]}} & draw[534+:2];  // fixed_degree
+  endfunction
+
+  // the settings after a word was written to those that are selected
+  function automatic draw_t draw_written(input draw_t draw, input select_t select, input logic [31:0] word);
+    draw_written = draw;
+    if (select[0]) draw_written[0+:17] = word[0+:17];  // ks_b
+    if (select[1]) draw_written[17+:17] = word[0+:17];  // ks_g
+    if (select[2]) draw_written[34+:17] = word[0+:17];  // ks_r
+    if (select[3]) draw_written[51+:17] = word[0+:17];  // kd_b
+    if (select[4]) draw_written[68+:17] = word[0+:17];  // kd_g
+    if (select[5]) draw_written[85+:17] = word[0+:17];  // kd_r
+    if (select[6]) draw_written[102+:17] = word[0+:17];  // ambient_b
+    if (select[7]) draw_written[119+:17] = word[0+:17];  // ambient_g
+    if (select[8]) draw_written[136+:17] = word[0+:17];  // ambient_r
+    if (select[9]) draw_written[153+:17] = word[0+:17];  // vh
+    if (select[10]) draw_written[170+:18] = word[0+:18];  // hz
+    if (select[11]) draw_written[188+:18] = word[0+:18];  // hy
+    if (select[12]) draw_written[206+:18] = word[0+:18];  // hx
+    if (select[13]) draw_written[224+:18] = word[0+:18];  // lz
+    if (select[14]) draw_written[242+:18] = word[0+:18];  // ly
+    if (select[15]) draw_written[260+:18] = word[0+:18];  // lx
+    if (select[16]) draw_written[278+:17] = word[0+:17];  // f0
+    if (select[17]) draw_written[301+:17] = word[0+:17];  // gain
+    if (select[17]) draw_written[295+:6] = word[24+:6];  // gain_exp
+    if (select[18]) draw_written[322+:17] = word[0+:17];  // inv_n
+    if (select[18]) draw_written[318+:4] = word[24+:4];  // inv_n_exp
+    if (select[19]) draw_written[342+:17] = word[0+:17];  // xmax
+    if (select[19]) draw_written[339+:3] = word[24+:3];  // shift
+    if (select[20]) draw_written[359+:18] = word[0+:18];  // k2
+    if (select[21]) draw_written[377+:21] = word[0+:21];  // k1
+    if (select[22]) draw_written[399+:3] = word[0+:3];  // model
+    if (select[22]) draw_written[398+:1] = word[8+:1];  // cosine
+    if (select[23]) draw_written[402+:18] = word[0+:18];  // threshold
+    if (select[24]) draw_written[420+:31] = word[0+:31];  // t3
+    if (select[25]) draw_written[451+:31] = word[0+:31];  // t2
+    if (select[26]) draw_written[482+:31] = word[0+:31];  // t1
+    if (select[27]) draw_written[517+:17] = word[0+:17];  // sharpness
+    if (select[27]) draw_written[513+:4] = word[24+:4];  // sharpness_exp
+    if (select[35]) draw_written[540+:1] = word[0+:1];  // path
+    if (select[35]) draw_written[539+:1] = word[1+:1];  // colour
+    if (select[35]) draw_written[536+:3] = word[4+:3];  // variant
+    if (select[35]) draw_written[534+:2] = word[8+:2];  // fixed_degree
+  endfunction
+
+  // the word STATUS
+  function automatic logic [31:0] status_word(input logic busy, input status_t status);
+    status_word = 32'd0;
+    status_word[0] = busy;
+    status_word[8] = status[10];  // error_empty
+    status_word[9] = status[9];  // error_long
+    status_word[10] = status[8];  // error_packet
+    status_word[11] = status[7];  // error_metric
+    status_word[12] = status[6];  // error_threshold
+    status_word[16] = status[5];  // light_model
+    status_word[17] = status[4];  // light_range
+    status_word[18] = status[3];  // light_zero
+    status_word[19] = status[2];  // light_saturated
+    status_word[24] = status[1];  // normal_zero
+    status_word[25] = status[0];  // normal_short
+  endfunction
 
 endpackage
 /* verilator lint_on UNUSEDPARAM */
+/* verilator lint_on UNUSEDSIGNAL */

@@ -53,6 +53,8 @@ POINTS: dict[str, list[Point]] = {
     "shade_reflectance": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1], LOCAL=[0, 1]), {"FORM": 0}],
     "shade_light": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
     "shade_light_local": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
+    "shade_paint": [{"FIFO_LOG2": 4}],
+    "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}, {"FORM": 0}],
     "shade_node_walk": [{"CREDIT_LOG2": 1}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
 }
@@ -100,6 +102,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_scale3": [{"FOLD": 3}],
     "shade_versine": [{"FORM": 0}],
     "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],
+    "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}],
     "yardstick_beckmann": [{"WARD": 1}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }

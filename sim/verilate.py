@@ -144,9 +144,18 @@ def ports(module: str, parameters: dict[str, int], scratch: Path) -> list[Port]:
     for item in top["stmtsp"]:
         if item["type"] == "VAR" and item.get("varType") == "PORT":
             dtype = types[item["dtypep"]]
-            high, low = map(int, dtype.get("range", "0:0").split(":"))
-            found.append(Port(item["name"], item["direction"].lower(), high - low + 1, bool(dtype.get("signed"))))
+            found.append(Port(item["name"], item["direction"].lower(), _bits(dtype, types), bool(dtype.get("signed"))))
     return found
+
+
+def _bits(dtype: dict, types: dict[str, dict]) -> int:
+    """Bits of a type of Verilator's syntax tree: a vector's, or of a packed structure those of its members."""
+    if dtype["type"] == "REFDTYPE":
+        return _bits(types[dtype["refDTypep"]], types)
+    if dtype["type"] == "STRUCTDTYPE":
+        return sum(_bits(types[member["dtypep"]], types) for member in dtype["membersp"])
+    high, low = map(int, dtype.get("range", "0:0").split(":"))
+    return high - low + 1
 
 
 def build(module: str, parameters: dict[str, int], glue, *, waves: bool = False) -> tuple[Path, list[Port]]:

@@ -1,0 +1,110 @@
+// shade_phong: the yardstick: a unit normal and light at every pixel, exactly, without any of the papers' ideas.
+//
+//   span ─▶ shade_walk ─▶ shade_increment ─▶ shade_normalize ─▶ shade_light ─▶ clamp ─▶ shade_fifo ─▶ m_axis_pixel
+//
+//   s_axis_span    LINE packet: normal and increment, S2.29; 1 .. 4096 pixels; tag
+//   m_axis_pixel   tdata = {specular, diffuse}, U0.16; tuser = tag; tlast = last pixel of the span
+//   draw_i         settings of the draw call, material and light, see docs/registers.md; must not change while a span is
+//                  inside
+//   error_o, error_count_o   ERROR_EMPTY, _LONG: a span that is dropped, at the cost of a clock, and counted
+//
+// What shade_lane is measured against: the same packets, and the pixels that it comes close to. FORM, REFLECT, DIVIDE: see
+// shade_light. The pipeline never stalls: a pixel starts with a credit for its place in the FIFO; no combinational path leads
+// from an input to an output. One pixel a clock, no bubble between spans. Latency LATENCY_PHONG = 82 clocks from a span to
+// its first pixel, REFLECT = 0: fewer by LATENCY_REFLECT.
+// Example: normal (0, 0, 1), increment 0, 5 pixels, light from the viewer -> five pixels of full intensity.
+module shade_phong #(
+  parameter int FORM    = shade_pkg::FORM_REFINED,
+  parameter int REFLECT = 1,
+  parameter int DIVIDE  = 1
+) (
+  input  logic                               clk_i,
+  input  logic                               rst_i,
+  input  shade_pkg::draw_t                   draw_i,
+  input  logic                               s_axis_span_tvalid,
+  output logic                               s_axis_span_tready,
+  input  logic [ shade_pkg::LINE_DATA_W-1:0] s_axis_span_tdata,
+  output logic                               m_axis_pixel_tvalid,
+  input  logic                               m_axis_pixel_tready,
+  output logic [shade_pkg::PIXEL_DATA_W-1:0] m_axis_pixel_tdata,
+  output logic [       shade_pkg::TAG_W-1:0] m_axis_pixel_tuser,
+  output logic                               m_axis_pixel_tlast,
+  output logic [                        1:0] error_o,
+  output logic [                       15:0] error_count_o
+);
+  localparam int W = shade_pkg::INTENSITY_W;
+  localparam int STEP_W = shade_pkg::STEP_W;
+  localparam int COUNT_W = shade_pkg::COUNT_W;
+  localparam int TAG_W = shade_pkg::TAG_W;
+  localparam int LINE_W = shade_pkg::LINE_COUNT_LSB;
+  localparam int FIFO_LOG2 = shade_pkg::PHONG_FIFO_LOG2;
+
+  // ---- spans ---------------------------------------------------------------------------------------------------
+  logic [COUNT_W-1:0] count;
+  logic [1:0] error;
+  logic load, issue, first, last, credit;
+  assign count = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
+  always_comb begin
+    error = '0;
+    error[shade_pkg::ERROR_EMPTY] = count == '0;
+    error[shade_pkg::ERROR_LONG] = count > COUNT_W'(shade_pkg::PIXELS_MAX);
+  end
+  shade_walk #(.ERROR_W(2), .CREDIT_LOG2(FIFO_LOG2)) u_walk (
+    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(count), .error_i(error),
+    .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first), .last_o(last), .error_o, .error_count_o
+  );
+
+  logic [LINE_W-1:0] line_q;
+  logic [TAG_W-1:0] tag_q;
+  always_ff @(posedge clk_i) begin
+    if (load) begin
+      line_q <= s_axis_span_tdata[LINE_W-1:0];
+      tag_q  <= s_axis_span_tdata[shade_pkg::LINE_TAG_LSB+:TAG_W];
+    end
+  end
+
+  // ---- normals and light of the pixels ---------------------------------------------------------------------------
+  logic valid_n, valid_e, valid_l;
+  logic signed [W-1:0] nx, ny, nz, ex, ey, ez, diffuse, specular;
+  shade_increment u_increment (
+    .clk_i, .rst_i, .valid_i(issue), .first_i(first), .line_i(1'b0),
+    .xn_i(line_q[0+:STEP_W]), .yn_i(line_q[STEP_W+:STEP_W]), .zn_i(line_q[2*STEP_W+:STEP_W]),
+    .xg_i(line_q[3*STEP_W+:STEP_W]), .yg_i(line_q[4*STEP_W+:STEP_W]), .zg_i(line_q[5*STEP_W+:STEP_W]),
+    .xl_i(STEP_W'(0)), .yl_i(STEP_W'(0)), .zl_i(STEP_W'(0)), .valid_o(valid_n), .x_o(nx), .y_o(ny), .z_o(nz)
+  );
+  shade_normalize u_normalize (
+    .clk_i, .rst_i, .valid_i(valid_n), .x_i(nx), .y_i(ny), .z_i(nz), .valid_o(valid_e), .x_o(ex), .y_o(ey), .z_o(ez),
+    .zero_o()
+  );
+  shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
+    .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
+    .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .inv_n_i(draw_i.inv_n), .inv_n_exp_i(draw_i.inv_n_exp),
+    .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp), .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz),
+    .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz), .vh_i(draw_i.vh), .valid_i(valid_e), .nx_i(ex), .ny_i(ey),
+    .nz_i(ez), .valid_o(valid_l), .diffuse_o(diffuse), .specular_o(specular), .flags_o()
+  );
+
+  // ---- pixels ----------------------------------------------------------------------------------------------------
+  localparam int PIXEL_W = shade_pkg::PIXEL_W;
+  logic valid_q;
+  logic [2*PIXEL_W-1:0] pixel, pixel_q;
+  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_diffuse (.x_i(diffuse), .y_o(pixel[0+:PIXEL_W]));
+  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_specular (.x_i(specular), .y_o(pixel[PIXEL_W+:PIXEL_W]));
+  always_ff @(posedge clk_i) begin
+    pixel_q <= pixel;
+    valid_q <= valid_l;
+    if (rst_i) valid_q <= 1'b0;
+  end
+  shade_fifo #(.WIDTH(2 * PIXEL_W), .LOG2(FIFO_LOG2)) u_pixels (
+    .clk_i, .rst_i, .valid_i(valid_q), .data_i(pixel_q), .valid_o(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready),
+    .data_o(m_axis_pixel_tdata), .taken_o(credit)
+  );
+  // what needs no computing is there long before its pixel, and leaves with it
+  shade_fifo #(.WIDTH(1 + TAG_W), .LOG2(FIFO_LOG2)) u_tags (
+    .clk_i, .rst_i, .valid_i(issue), .data_i({last, tag_q}), .valid_o(),
+    .ready_i(m_axis_pixel_tvalid && m_axis_pixel_tready), .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser}), .taken_o()
+  );
+
+  logic unused_bits;
+  assign unused_bits = &{1'b0, s_axis_span_tdata, draw_i};
+endmodule

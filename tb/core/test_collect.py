@@ -1,0 +1,64 @@
+"""shade_collect: the light at nodes, one after the other, into records, to the bit of golden.core.collect."""
+
+import random
+
+import numpy as np
+
+from golden import contract as k
+from golden.core import collect
+from golden.plan import node_walk
+from golden.poly import pack_spans
+from tb.bench import TRAFFIC, Bench, checked, patterns
+from tb.core.vectors import whole
+from tb.plan.test_node_walk import spans
+from tb.runner import simulate
+
+
+def test_cocotb():
+    simulate("shade_collect", {})
+
+
+@checked(**TRAFFIC)
+async def stream(bench: Bench, gap: float, reset: float) -> None:
+    """Records of planned spans of all kinds, a node a clock or with gaps; each comes a clock behind its last node.
+
+    Behind a reset the next span begins.
+    """
+    sent = spans(bench, 150)
+    nodes = node_walk(*(sent[name] for name in list(sent)[:8]))
+    rows, of = len(nodes.slot), nodes.record
+    light = np.stack([bench.signed(k.INTENSITY_W, rows) for _ in range(k.CHANNELS)], axis=-1)
+    tag = bench.rng.integers(0, 1 << k.TAG_W, len(nodes.span))
+    last = np.append(np.diff(of), 1) != 0
+    starts = [*np.flatnonzero(np.append(1, np.diff(nodes.span[of]))).tolist(), rows]
+    expected = pack_spans(collect(nodes, light), nodes.degree, nodes.count, tag, nodes.more)
+    used = pack_spans(used_slots(nodes.degree, nodes.count), 0, 0)
+    beside = (1 << k.SPAN_DATA_W) - (1 << k.SPAN_COUNT_LSB)
+
+    inputs = {
+        "diffuse_i": light[:, 0], "specular_i": light[:, 1], "slot_i": nodes.slot, "shared_i": nodes.shared,
+        "last_i": last, "count_i": nodes.count[of], "degree_i": nodes.degree[of], "more_i": nodes.more[of],
+        "tag_i": tag[of],
+    }  # fmt: skip
+    entries = [(getattr(bench.dut, name), patterns(getattr(bench.dut, name), v)) for name, v in inputs.items()]
+    node, due = 0, None
+    while node < rows or due is not None:
+        sends, in_reset = node < rows and random.random() >= gap, random.random() < reset
+        for port, values in entries:
+            port.value = values[node] if sends else random.getrandbits(len(port))
+        bench.dut.valid_i.value, bench.dut.rst_i.value = sends, in_reset
+        await bench.tick()
+        bench.equal(int(bench.dut.valid_o.value), due is not None, f"record {due}: valid_o")
+        if due is not None:
+            mask = whole(used[due]) | beside
+            shown = int(bench.dut.record_o.value) & mask
+            bench.equal(shown, whole(expected[due]) & mask, f"record {due}: record_o", k.SPAN_DATA_W)
+        due = int(of[node]) if sends and last[node] and not in_reset else None
+        node = next(start for start in starts if start >= node + sends) if in_reset else node + sends
+
+
+def used_slots(degree: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """(R, 2, 4): all bits of the slots that records have nodes in."""
+    number = np.where(degree == k.DEGREE_DIRECT, count, degree + 1)
+    bits = np.where(np.arange(k.NODE_COUNT) < number[:, None], -1, 0)
+    return np.stack([bits] * k.CHANNELS, axis=1)

@@ -405,17 +405,17 @@ package shade_pkg;
 
   // what STATUS remembers
   typedef struct packed {
-    logic [0:0] error_empty;
-    logic [0:0] error_long;
-    logic [0:0] error_packet;
-    logic [0:0] error_metric;
-    logic [0:0] error_threshold;
-    logic [0:0] light_model;
-    logic [0:0] light_range;
-    logic [0:0] light_zero;
-    logic [0:0] light_saturated;
-    logic [0:0] normal_zero;
     logic [0:0] normal_short;
+    logic [0:0] normal_zero;
+    logic [0:0] light_saturated;
+    logic [0:0] light_zero;
+    logic [0:0] light_range;
+    logic [0:0] light_model;
+    logic [0:0] error_threshold;
+    logic [0:0] error_metric;
+    logic [0:0] error_packet;
+    logic [0:0] error_long;
+    logic [0:0] error_empty;
   } status_t;
 
   // one register of all
@@ -463,15 +463,44 @@ package shade_pkg;
   // the register at an offset; nothing where there is none
   function automatic select_t register_at(input logic [11:0] offset);
     register_at = {
-      offset == 12'(REG_ID), offset == 12'(REG_VERSION), offset == 12'(REG_CONTROL), offset == 12'(REG_STATUS), offset
-      == 12'(REG_PIXELS), offset == 12'(REG_SPANS), offset == 12'(REG_CLOCKS), offset == 12'(REG_STALLS), offset ==
-      12'(REG_EVALUATIONS), offset == 12'(REG_ERRORS), offset == 12'(REG_SHARPNESS), offset == 12'(REG_T1), offset ==
-      12'(REG_T2), offset == 12'(REG_T3), offset == 12'(REG_THRESHOLD), offset == 12'(REG_MODEL), offset == 12'(REG_K1),
-      offset == 12'(REG_K2), offset == 12'(REG_XMAX), offset == 12'(REG_INV_N), offset == 12'(REG_GAIN), offset ==
-      12'(REG_F0), offset == 12'(REG_LX), offset == 12'(REG_LY), offset == 12'(REG_LZ), offset == 12'(REG_HX), offset ==
-      12'(REG_HY), offset == 12'(REG_HZ), offset == 12'(REG_VH), offset == 12'(REG_AMBIENT_R), offset ==
-      12'(REG_AMBIENT_G), offset == 12'(REG_AMBIENT_B), offset == 12'(REG_KD_R), offset == 12'(REG_KD_G), offset ==
-      12'(REG_KD_B), offset == 12'(REG_KS_R), offset == 12'(REG_KS_G), offset == 12'(REG_KS_B)
+      offset == 12'(REG_ID),
+      offset == 12'(REG_VERSION),
+      offset == 12'(REG_CONTROL),
+      offset == 12'(REG_STATUS),
+      offset == 12'(REG_PIXELS),
+      offset == 12'(REG_SPANS),
+      offset == 12'(REG_CLOCKS),
+      offset == 12'(REG_STALLS),
+      offset == 12'(REG_EVALUATIONS),
+      offset == 12'(REG_ERRORS),
+      offset == 12'(REG_SHARPNESS),
+      offset == 12'(REG_T1),
+      offset == 12'(REG_T2),
+      offset == 12'(REG_T3),
+      offset == 12'(REG_THRESHOLD),
+      offset == 12'(REG_MODEL),
+      offset == 12'(REG_K1),
+      offset == 12'(REG_K2),
+      offset == 12'(REG_XMAX),
+      offset == 12'(REG_INV_N),
+      offset == 12'(REG_GAIN),
+      offset == 12'(REG_F0),
+      offset == 12'(REG_LX),
+      offset == 12'(REG_LY),
+      offset == 12'(REG_LZ),
+      offset == 12'(REG_HX),
+      offset == 12'(REG_HY),
+      offset == 12'(REG_HZ),
+      offset == 12'(REG_VH),
+      offset == 12'(REG_AMBIENT_R),
+      offset == 12'(REG_AMBIENT_G),
+      offset == 12'(REG_AMBIENT_B),
+      offset == 12'(REG_KD_R),
+      offset == 12'(REG_KD_G),
+      offset == 12'(REG_KD_B),
+      offset == 12'(REG_KS_R),
+      offset == 12'(REG_KS_G),
+      offset == 12'(REG_KS_B)
     };
   endfunction
 
@@ -563,17 +592,17 @@ package shade_pkg;
   function automatic logic [31:0] status_word(input logic busy, input status_t status);
     status_word = 32'd0;
     status_word[0] = busy;
-    status_word[8] = status[10];  // error_empty
-    status_word[9] = status[9];  // error_long
-    status_word[10] = status[8];  // error_packet
-    status_word[11] = status[7];  // error_metric
-    status_word[12] = status[6];  // error_threshold
+    status_word[25] = status[10];  // normal_short
+    status_word[24] = status[9];  // normal_zero
+    status_word[19] = status[8];  // light_saturated
+    status_word[18] = status[7];  // light_zero
+    status_word[17] = status[6];  // light_range
     status_word[16] = status[5];  // light_model
-    status_word[17] = status[4];  // light_range
-    status_word[18] = status[3];  // light_zero
-    status_word[19] = status[2];  // light_saturated
-    status_word[24] = status[1];  // normal_zero
-    status_word[25] = status[0];  // normal_short
+    status_word[12] = status[4];  // error_threshold
+    status_word[11] = status[3];  // error_metric
+    status_word[10] = status[2];  // error_packet
+    status_word[9] = status[1];  // error_long
+    status_word[8] = status[0];  // error_empty
   endfunction
 
 endpackage

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from itertools import accumulate
 from pathlib import Path
 
 from golden import contract as k
@@ -23,6 +24,7 @@ HEADER = """\
 // Latencies are in clocks from an input taken to the output that it causes.
 
 /* verilator lint_off UNUSEDPARAM */  // no single module uses every constant
+/* verilator lint_off UNUSEDSIGNAL */  // nor has a word of registers a setting in every bit
 """
 
 
@@ -42,14 +44,92 @@ def package() -> str:
     lines += ["", "  // registers: byte offset, lowest bit of a field, word after reset"]
     for name, (value, comment) in registers.constants().items():
         lines.append(f"  localparam int {name} = {value};{comment and f'  // {comment}'}")
-    lines += ["", "  // the settings of a draw call: what can be written, by the names of docs/registers.md"]
-    lines += ["  typedef struct packed {"]
-    lines += [
-        f"    logic {'signed ' if field.format.startswith('S') else ''}[{field.width - 1}:0] {field.name};"
-        for field in registers.settings()
+    lines += _register_file()
+    return "\n".join(
+        [*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", "/* verilator lint_on UNUSEDSIGNAL */", ""]
+    )
+
+
+def _register_file() -> list[str]:
+    """Settings, what STATUS remembers and which register is meant as structures; their way into words and back.
+
+    The functions take structures as vectors: Yosys' own reader does not know the fields of a function's variables.
+    """
+    settings, every = list(registers.settings()), list(registers.registers())
+    faults = list(registers.faults())[::-1]  # the first one at the bottom, as in the word
+    return [
+        "",
+        "  // the settings of a draw call: what can be written, by the names of docs/registers.md",
+        *_struct("draw_t", settings),
+        "  localparam draw_t DRAW_RESET = {",
+        *(f"    {field.width}'d{field.reset},  // {field.name}" for field in settings[:-1]),
+        f"    {settings[-1].width}'d{settings[-1].reset}  // {settings[-1].name}",
+        "  };",
+        "",
+        "  // what STATUS remembers",
+        *_struct("status_t", faults),
+        "",
+        "  // one register of all",
+        *_struct("select_t", [registers.Field(register.name.lower(), 1, "") for register in every]),
+        "",
+        "  // the register at an offset; nothing where there is none",
+        "  function automatic select_t register_at(input logic [11:0] offset);",
+        "    register_at = {",
+        *(f"      offset == 12'(REG_{register.name})," for register in every[:-1]),
+        f"      offset == 12'(REG_{every[-1].name})",
+        "    };",
+        "  endfunction",
+        "",
+        "  // the word of the settings that are selected, else 0",
+        "  function automatic logic [31:0] draw_word(input draw_t draw, input select_t select);",
+        "    draw_word = 32'd0;",
+        *_each(settings, "draw_word[{word}] |= {{{width}{{select[{select}]}}}} & draw[{draw}];"),
+        "  endfunction",
+        "",
+        "  // the settings after a word was written to those that are selected",
+        "  function automatic draw_t draw_written(input draw_t draw, input select_t select, input logic [31:0] word);",
+        "    draw_written = draw;",
+        *_each(settings, "if (select[{select}]) draw_written[{draw}] = word[{word}];"),
+        "  endfunction",
+        "",
+        "  // the word STATUS",
+        "  function automatic logic [31:0] status_word(input logic busy, input status_t status);",
+        "    status_word = 32'd0;",
+        "    status_word[0] = busy;",
+        *(f"    status_word[{field.lsb}] = status[{lsb}];  // {field.name}" for field, lsb in _placed(faults).items()),
+        "  endfunction",
     ]
-    lines += ["  } draw_t;"]
-    return "\n".join([*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", ""])
+
+
+def _struct(name: str, fields: list[registers.Field]) -> list[str]:
+    """A packed structure of the fields."""
+    signs = ("signed " if field.format.startswith("S") else "" for field in fields)
+    members = [
+        f"    logic {sign}[{field.width - 1}:0] {field.name};" for sign, field in zip(signs, fields, strict=True)
+    ]
+    return ["  typedef struct packed {", *members, f"  }} {name};"]
+
+
+def _placed(fields: list[registers.Field]) -> dict[registers.Field, int]:
+    """The lowest bit of every field in the packed structure, whose first field is at the top."""
+    ends = accumulate(field.width for field in fields)
+    total = sum(field.width for field in fields)
+    return {field: total - end for field, end in zip(fields, ends, strict=True)}
+
+
+def _each(settings: list[registers.Field], statement: str) -> list[str]:
+    """A statement for every setting: its bits of ``word`` and of ``draw``, the bit that selects its register."""
+    placed = _placed(settings)
+    return [
+        "    "
+        + statement.format(
+            word=f"{field.lsb}+:{field.width}", draw=f"{placed[field]}+:{field.width}", width=field.width, select=select
+        )
+        + f"  // {field.name}"
+        for select, register in enumerate(reversed(list(registers.registers())))
+        for field in register.fields
+        if field in placed
+    ]
 
 
 ROM_HEADER = """\

@@ -1,0 +1,160 @@
+// shade_registers: the register map of docs/registers.md as an AXI4-Lite slave: settings, status, counters.
+//
+//   s_axil_*      words of 32 bits, bits 1:0 of an address and *prot are ignored. Address and data of a write may come in any
+//                 order; strobes choose its bytes. One access is served at a time, writes and reads by turns.
+//   SLVERR        no register at the offset (reads 0), or a setting written while busy_i: nothing changes.
+//                 Allowed while busy: CONTROL with clear set and its settings as they are.
+//   draw_o        the settings; they change only while busy_i is 0
+//   clear_o       high for one clock: CONTROL.clear was written
+//   events_i      STATUS bits to set; they stay until they are cleared
+//   pixels_i, ... by how much the counters rise in this clock; CLOCKS rises while busy_i. Counters wrap around.
+//                 What comes in the clock of clear_o counts from 0.
+//
+// A read is answered 5 clocks after its address was taken, a write 5 clocks after the later of its address and its data;
+// if both wait, the second 4 clocks after the first. No combinational path leads from an input to an output.
+// Example: after reset, offset 0x000 reads 0x50534844, "PSHD".
+module shade_registers (
+  input  logic               clk_i,
+  input  logic               rst_i,
+  input  logic               s_axil_awvalid,
+  output logic               s_axil_awready,
+  input  logic        [11:0] s_axil_awaddr,
+  input  logic        [ 2:0] s_axil_awprot,
+  input  logic               s_axil_wvalid,
+  output logic               s_axil_wready,
+  input  logic        [31:0] s_axil_wdata,
+  input  logic        [ 3:0] s_axil_wstrb,
+  output logic               s_axil_bvalid,
+  input  logic               s_axil_bready,
+  output logic        [ 1:0] s_axil_bresp,
+  input  logic               s_axil_arvalid,
+  output logic               s_axil_arready,
+  input  logic        [11:0] s_axil_araddr,
+  input  logic        [ 2:0] s_axil_arprot,
+  output logic               s_axil_rvalid,
+  input  logic               s_axil_rready,
+  output logic        [31:0] s_axil_rdata,
+  output logic        [ 1:0] s_axil_rresp,
+  output shade_pkg::draw_t   draw_o,
+  output logic               clear_o,
+  input  logic               busy_i,
+  input  shade_pkg::status_t events_i,
+  input  logic        [ 2:0] pixels_i,
+  input  logic        [ 2:0] spans_i,
+  input  logic        [ 2:0] stalls_i,
+  input  logic        [ 2:0] evaluations_i,
+  input  logic        [ 2:0] errors_i
+);
+  localparam logic [1:0] OKAY = 2'b00;
+  localparam logic [1:0] SLVERR = 2'b10;
+  localparam int CLEAR = shade_pkg::REG_CONTROL_CLEAR_LSB;
+
+  // ---- counters and status -----------------------------------------------------------------------------------------
+  logic [31:0] pixels_q, spans_q, clocks_q, stalls_q, evaluations_q, errors_q;
+  shade_pkg::status_t status_q;
+  always_ff @(posedge clk_i) begin
+    pixels_q      <= (clear_o ? 32'd0 : pixels_q) + 32'(pixels_i);
+    spans_q       <= (clear_o ? 32'd0 : spans_q) + 32'(spans_i);
+    clocks_q      <= (clear_o ? 32'd0 : clocks_q) + 32'(busy_i);
+    stalls_q      <= (clear_o ? 32'd0 : stalls_q) + 32'(stalls_i);
+    evaluations_q <= (clear_o ? 32'd0 : evaluations_q) + 32'(evaluations_i);
+    errors_q      <= (clear_o ? 32'd0 : errors_q) + 32'(errors_i);
+    status_q      <= (clear_o ? '0 : status_q) | events_i;
+    if (rst_i) begin
+      pixels_q      <= 32'd0;
+      spans_q       <= 32'd0;
+      clocks_q      <= 32'd0;
+      stalls_q      <= 32'd0;
+      evaluations_q <= 32'd0;
+      errors_q      <= 32'd0;
+      status_q      <= '0;
+    end
+  end
+
+  // ---- channels: each holds a beat until it is served; not ready means that it does ----------------------------------
+  logic write, read;  // an access ends
+  logic [11:0] write_at_q, read_at_q;
+  logic [31:0] data_q;
+  logic [3:0] strobe_q;
+  always_ff @(posedge clk_i) begin
+    if (s_axil_awready) write_at_q <= {s_axil_awaddr[11:2], 2'b00};
+    if (s_axil_wready) {strobe_q, data_q} <= {s_axil_wstrb, s_axil_wdata};
+    if (s_axil_arready) read_at_q <= {s_axil_araddr[11:2], 2'b00};
+
+    if (s_axil_awvalid) s_axil_awready <= 1'b0;
+    if (s_axil_wvalid) s_axil_wready <= 1'b0;
+    if (s_axil_arvalid) s_axil_arready <= 1'b0;
+    if (s_axil_bready) s_axil_bvalid <= 1'b0;
+    if (s_axil_rready) s_axil_rvalid <= 1'b0;
+    if (write) {s_axil_awready, s_axil_wready, s_axil_bvalid} <= 3'b111;
+    if (read) {s_axil_arready, s_axil_rvalid} <= 2'b11;
+    if (rst_i) begin
+      {s_axil_awready, s_axil_wready, s_axil_arready} <= 3'b111;
+      {s_axil_bvalid, s_axil_rvalid}                  <= 2'b00;
+    end
+  end
+
+  // ---- an access: choose one, read its word, put the bytes written into it, end it ---------------------------------
+  logic writable, readable, choose_write, idle, look_q, merge_q, end_q, write_q;
+  shade_pkg::select_t select_q;
+  assign writable     = !s_axil_awready && !s_axil_wready && !s_axil_bvalid;
+  assign readable     = !s_axil_arready && !s_axil_rvalid;
+  assign choose_write = writable && !(readable && write_q);  // by turns
+  assign idle         = !look_q && !merge_q && !end_q;
+  always_ff @(posedge clk_i) begin
+    {look_q, merge_q, end_q} <= {idle && (writable || readable), look_q, merge_q};
+    if (idle) begin
+      write_q  <= choose_write;
+      select_q <= shade_pkg::register_at(choose_write ? write_at_q : read_at_q);
+    end
+    if (rst_i) {look_q, merge_q, end_q} <= 3'b000;
+  end
+  assign write = end_q && write_q;
+  assign read  = end_q && !write_q;
+
+  logic [31:0] draw_q, own_q, word, merged, word_q;
+  logic mapped_q, setting_q, clears_q;
+  assign word = draw_q | own_q;  // one of them is 0
+  for (genvar i = 0; i < 4; i++) begin : g_byte
+    assign merged[8*i+:8] = write_q && strobe_q[i] ? data_q[8*i+:8] : word[8*i+:8];
+  end
+  logic own;
+  assign own = select_q.id || select_q.version || select_q.status || select_q.pixels || select_q.spans || select_q.clocks
+            || select_q.stalls || select_q.evaluations || select_q.errors;
+  always_ff @(posedge clk_i) begin
+    if (look_q) begin
+      mapped_q  <= select_q != '0;
+      setting_q <= !own;
+      draw_q    <= shade_pkg::draw_word(draw_o, select_q);
+      own_q     <= ({32{select_q.id}} & 32'(shade_pkg::REG_ID_RESET))
+                 | ({32{select_q.version}} & 32'(shade_pkg::REG_VERSION_RESET))
+                 | ({32{select_q.status}} & shade_pkg::status_word(busy_i, status_q))
+                 | ({32{select_q.pixels}} & pixels_q)
+                 | ({32{select_q.spans}} & spans_q)
+                 | ({32{select_q.clocks}} & clocks_q)
+                 | ({32{select_q.stalls}} & stalls_q)
+                 | ({32{select_q.evaluations}} & evaluations_q)
+                 | ({32{select_q.errors}} & errors_q);
+    end
+    if (merge_q) begin
+      word_q   <= merged;
+      clears_q <= select_q.control && (merged ^ word) == 32'd1 << CLEAR;
+    end
+  end
+
+  logic refused;
+  assign refused = !mapped_q || (setting_q && busy_i && !clears_q);
+  always_ff @(posedge clk_i) begin
+    if (read) {s_axil_rdata, s_axil_rresp} <= {word_q, mapped_q ? OKAY : SLVERR};
+    if (write) s_axil_bresp <= refused ? SLVERR : OKAY;
+    if (write && !refused) draw_o <= shade_pkg::draw_written(draw_o, select_q, word_q);
+    clear_o <= write && !refused && select_q.control && word_q[CLEAR];
+    if (rst_i) begin
+      draw_o  <= shade_pkg::DRAW_RESET;
+      clear_o <= 1'b0;
+    end
+  end
+
+  logic unused_bits;
+  assign unused_bits = &{1'b0, s_axil_awaddr[1:0], s_axil_araddr[1:0], s_axil_awprot, s_axil_arprot};
+endmodule

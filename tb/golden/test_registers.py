@@ -133,3 +133,18 @@ def test_constants_of_the_rtl() -> None:
     assert constants["REG_ID_RESET"] == 0x50534844 and "REG_GAIN_RESET" not in constants
     package = generate.package()
     assert all(f"  localparam int {name} = {value};" in package for name, value in constants.items())
+
+
+def test_the_structure_of_settings() -> None:
+    """From the top down in the order of the map: what was given, the rest as after reset; refusals are pack's."""
+    given = {"path": 1, "gain_exp": -3, "k2": -5, "lx": -65536, "ks_b": 77}
+    words = registers.pack_draw(given)
+    left = sum(int(word) << 32 * i for i, word in enumerate(words))
+    for field in reversed(list(registers.settings())):
+        value = given.get(field.name, field.reset)
+        assert left & (1 << field.width) - 1 == value & (1 << field.width) - 1, field.name
+        left >>= field.width
+    assert left == 0
+    for values, message in (({"clear": 1}, "clear: no field to write"), ({"path": 2}, "path: 2 is out of range")):
+        with pytest.raises(ValueError, match=message):
+            registers.pack_draw(values)

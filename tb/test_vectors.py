@@ -47,6 +47,8 @@ BOUND = {
     "shade_node_chain": 2,
     "shade_metric": 1 / 2,
     "shade_criterion": 0.85,
+    "shade_kappa": 1,  # cut, behind the cuts of its factors; those make 2^-12 of it at most, see tb/golden/test_plan.py
+    "shade_planner": 0,
     "shade_increment": 1 / 2,
     "shade_versine": 1 / 2,
     "shade_reflect": 1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
@@ -63,7 +65,15 @@ BOUND = {
 NEEDS_FULL = {
     *(name for name in BOUND if name.startswith(("shade_coef", "shade_horner"))),
     *("shade_fdiff", "shade_rsqrt", "shade_normalize", "shade_dot3", "shade_scale3", "shade_bisect", "shade_midpoint"),
-    *("shade_node_chain", "shade_criterion", "shade_increment", "shade_versine", "shade_reflect"),
+    *(
+        "shade_node_chain",
+        "shade_criterion",
+        "shade_kappa",
+        "shade_planner",
+        "shade_increment",
+        "shade_versine",
+        "shade_reflect",
+    ),
     *("shade_halfway", "shade_fresnel", "shade_colour", "shade_angles", "shade_geometry", "shade_gain"),
     *("shade_light", "shade_light_local"),
 }

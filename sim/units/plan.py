@@ -1,4 +1,4 @@
-"""P2's criterion: whether a triangle is flat enough to go without normalizing."""
+"""The planner, its measure kappa, and P2's criterion: whether a triangle is flat enough to go without normalizing."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from golden import contract as k
 from golden import plan
-from sim.units.case import FORMS, ONE, Arrays, Case, in_forms, mixed, signed_range, thresholds
+from sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, late, mixed, signed_range, thresholds
 from sim.units.normal import DEGREES, cosine, true_invc
 
 
@@ -61,6 +61,87 @@ def _criterion(form: str) -> Iterator[Case]:
             )  # fmt: skip
 
 
+def increments(rng: np.random.Generator, rows: int) -> Arrays:
+    """Increments of normals of every length, one component in four shorter than the others."""
+    g = mixed({f"g{c}_i": signed_range(k.STEP_W) for c in "xyz"})(rng, rows)
+    length = rng.integers(0, k.STEP_W, rows)
+    return {name: value >> length >> rng.integers(0, 8, rows) * rng.integers(0, 2, rows) for name, value in g.items()}
+
+
+def sharpness(rng: np.random.Generator, rows: int) -> Arrays:
+    """A sharpness for all rows."""
+    one = 1 << k.SHARPNESS_F
+    mantissa = rng.choice([one, 2 * one - 1, rng.integers(one, 2 * one)])
+    return {"mantissa_i": np.full(rows, mantissa), "exponent_i": np.full(rows, rng.integers(13))}
+
+
+def _kappa(form: str) -> Iterator[Case]:
+    """kappa of increments of every length. Exact: of the bits that are kept; ideal: of all."""
+    if form != "refined":
+        return
+    names = ("gx_i", "gy_i", "gz_i")
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        return increments(rng, rows) | {"log2_i": rng.integers(0, 14, rows)} | sharpness(rng, rows)
+
+    def golden(i: Arrays) -> Arrays:
+        g = (i[name] for name in names)
+        return {"kappa_o": plan.kappa(*g, late(i["log2_i"], 2), i["mantissa_i"], i["exponent_i"])}
+
+    def value(i: Arrays, energy: np.ndarray) -> Arrays:
+        """kappa for |g|^2, g in units of its last bit."""
+        shift = 2 * late(i["log2_i"], 2) + i["exponent_i"] - 2 * k.STEP_F - k.SHARPNESS_F - 1 + k.KAPPA_F
+        return {"kappa_o": np.minimum(np.ldexp(energy * i["mantissa_i"], shift), plan.KAPPA_MAX)}
+
+    def exact(i: Arrays) -> Arrays:
+        g = np.stack([i[name] for name in names])
+        bits = np.frexp(np.maximum(g, ~g).max(axis=0).astype(float))[1]  # of the longest component, without its sign
+        drop = bits - 17
+        kept = np.floor(np.ldexp(g.astype(Real), -drop))
+        energy = np.floor(np.ldexp((kept**2).sum(axis=0), -19))
+        return value(i, np.ldexp(energy, 19 + 2 * drop))
+
+    def ideal(i: Arrays) -> Arrays:
+        return value(i, sum(i[name].astype(Real) ** 2 for name in names))
+
+    yield Case(
+        "shade_kappa", form, {}, golden, exact, ideal, vectors, None, k.LATENCY_KAPPA, unit_f=k.KAPPA_F, chunk=1 << 16
+    )
+
+
+def _planner(form: str) -> Iterator[Case]:
+    """Plans of spans of all lengths and of counts that are none, adaptive, flat and of a fixed degree."""
+    if form != "refined":
+        return
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        limits = (
+            plan.THRESHOLDS if rng.integers(2) else np.sort(rng.integers(0, 1 << rng.integers(1, k.KAPPA_W + 1, 3)))
+        )
+        static = dict(zip(("t1_i", "t2_i", "t3_i"), limits, strict=True)) | {
+            "fixed_degree_i": rng.integers(1, 4) if rng.integers(4) == 0 else 0
+        }
+        near = (1 << rng.integers(0, k.COUNT_W, rows)) + rng.integers(-2, 3, rows)
+        count = np.choose(rng.integers(0, 3, rows), [near, rng.integers(0, 20, rows), rng.integers(0, 8192, rows)])
+        return (
+            increments(rng, rows)
+            | {"count_i": count.clip(0, (1 << k.COUNT_W) - 1), "flat_i": (rng.random(rows) < 0.1).astype(np.int64)}
+            | sharpness(rng, rows)
+            | {name: np.full(rows, value) for name, value in static.items()}
+        )
+
+    def golden(i: Arrays) -> Arrays:
+        planned = plan.planner(
+            *(i[f"{name}_i"] for name in ("gx", "gy", "gz", "count", "mantissa", "exponent")),
+            (i["t1_i"], i["t2_i"], i["t3_i"]), int(i["fixed_degree_i"][0]), i["flat_i"],
+        )  # fmt: skip
+        return {f"{name}_o": value for name, value in planned._asdict().items()}
+
+    yield Case(
+        "shade_planner", form, {}, golden, golden, golden, vectors, None, k.LATENCY_PLANNER, unit_f=0, chunk=1 << 16
+    )
+
+
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/plan``."""
-    return in_forms(_criterion)
+    return in_forms(_criterion, _kappa, _planner)

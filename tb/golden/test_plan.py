@@ -100,7 +100,7 @@ def test_other_thresholds() -> None:
         (9, T3, [(0, 9, 3, 3)]),  # 2^3 + 1 pixels: the last is the last node
         (9, T3 + 4, [(0, 4, 2, 2), (4, 5, 2, 2)]),  # half the length, a quarter of kappa: 1/4
         (9, 4 * T2 + 4, [(0, 4, 3, 2), (4, 5, 3, 2)]),
-        (8, 4 * T2 + 4, [(0, 4, 3, 2), (4, 4, 0, 2)]),  # four pixels share a node with the next ones, the last have none
+        (8, 4 * T2 + 4, [(0, 4, 3, 2), (4, 4, 0, 2)]),  # four pixels share a node with the next, the last do not
         (8, 4 * T2, [(0, 4, 2, 2), (4, 4, 2, 2)]),
         (8, T3, [(0, 8, 3, 3)]),
         (3, T3 + 1, [(0, 3, 0, 1)]),

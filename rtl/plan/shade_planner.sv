@@ -1,0 +1,167 @@
+// shade_planner: how a span is cut into records: length and degree by kappa, from increment and pixel count.
+//
+//   whole = ceil(log2(count - 1))   the span's arc has 2^whole pixels, and shade_kappa its kappa
+//   kappa(k) = kappa 4^(k - whole)  of 2^k pixels
+//   k = largest with kappa(k) <= t3;  degree 1 where kappa(k) <= t1, 2 where <= t2, else 3
+//
+//   gx_i, gy_i, gz_i S2.29   increment of the normal per pixel
+//   count_i                  pixels, 1 .. 4096; any other count gives some plan
+//   flat_i                   kappa counts as 0: one record of degree 1
+//   t1_i, t2_i, t3_i U11.20; mantissa_i, exponent_i: see shade_kappa; fixed_degree_i  0: adaptive; 1, 2, 3: one record of
+//                            that degree, as in the paper. These six are constant while spans are under way.
+//   main_o                   records before the last, of 2^log2_o pixels and degree_o each
+//   last_count_o             pixels of the last record; it lies on the arc of 2^last_log2_o, with last_degree_o
+//
+// Where kappa(2) > t3, all records are direct (degree 0, each pixel lit), of 4 pixels. The last record is direct if it has
+// no more pixels than its polynomial has nodes; in the paper's form, up to 4. The others share nodes with their neighbours.
+// The halvings of kappa until it is at most t3 are found by steps of 8, 4, 2, 1. Four 18 x 18 multipliers in shade_kappa.
+// Latency LATENCY_PLANNER = 28 clocks, one span a clock.
+// Example: 33 pixels, g = (1/128, 0, 0), n = 128: kappa = 4 -> 1 record of 16 pixels, one of 17, both of degree 3.
+// Source: P1, section V (degrees by region), by a measure instead of by hand.
+module shade_planner (
+  input  logic                                         clk_i,
+  input  logic                                         rst_i,
+  input  logic                                         valid_i,
+  input  logic signed [         shade_pkg::STEP_W-1:0] gx_i,
+  input  logic signed [         shade_pkg::STEP_W-1:0] gy_i,
+  input  logic signed [         shade_pkg::STEP_W-1:0] gz_i,
+  input  logic        [        shade_pkg::COUNT_W-1:0] count_i,
+  input  logic                                         flat_i,
+  input  logic        [        shade_pkg::KAPPA_W-1:0] t1_i,
+  input  logic        [        shade_pkg::KAPPA_W-1:0] t2_i,
+  input  logic        [        shade_pkg::KAPPA_W-1:0] t3_i,
+  input  logic        [      shade_pkg::SHARPNESS_F:0] mantissa_i,
+  input  logic        [shade_pkg::SHARPNESS_EXP_W-1:0] exponent_i,
+  input  logic        [       shade_pkg::DEGREE_W-1:0] fixed_degree_i,
+  output logic                                         valid_o,
+  output logic        [        shade_pkg::COUNT_W-1:0] main_o,
+  output logic        [         shade_pkg::LOG2_W-1:0] log2_o,
+  output logic        [       shade_pkg::DEGREE_W-1:0] degree_o,
+  output logic        [        shade_pkg::COUNT_W-1:0] last_count_o,
+  output logic        [         shade_pkg::LOG2_W-1:0] last_log2_o,
+  output logic        [       shade_pkg::DEGREE_W-1:0] last_degree_o
+);
+  localparam int COUNT_W = shade_pkg::COUNT_W;
+  localparam int KAPPA_W = shade_pkg::KAPPA_W;
+  localparam int LOG2_W = shade_pkg::LOG2_W;
+  localparam int DEGREE_W = shade_pkg::DEGREE_W;
+  localparam logic [LOG2_W-1:0] LOG2_MIN = LOG2_W'(shade_pkg::LOG2_MIN);
+
+  // bits of a number: the smallest k with value < 2^k
+  function automatic logic [LOG2_W-1:0] bits(input logic [COUNT_W-1:0] value);
+    bits = '0;
+    for (int i = 0; i < COUNT_W; i++) if (value[i]) bits = LOG2_W'(i + 1);
+  endfunction
+
+  // ---- the arc and its kappa -------------------------------------------------------------------------------------
+  logic [COUNT_W-1:0] steps_q1, count_q20, count_q22;
+  logic [LOG2_W-1:0] whole_q2, whole_q19;
+  logic [KAPPA_W-1:0] kappa_q14, kappa_q15;
+  logic flat_q14, flat_q27;
+  always_ff @(posedge clk_i) begin
+    steps_q1  <= count_i < COUNT_W'(2) ? '0 : count_i - COUNT_W'(2);
+    whole_q2  <= bits(steps_q1);
+    kappa_q15 <= flat_q14 || fixed_degree_i != '0 ? '0 : kappa_q14;
+  end
+  shade_kappa u_kappa (
+    .clk_i, .rst_i, .valid_i(1'b0), .gx_i, .gy_i, .gz_i, .log2_i(whole_q2), .mantissa_i, .exponent_i,
+    .valid_o(), .kappa_o(kappa_q14)
+  );
+  shade_delay #(.WIDTH(COUNT_W), .DEPTH(20)) u_count (.clk_i, .d_i(count_i), .q_o(count_q20));
+  shade_delay #(.WIDTH(COUNT_W), .DEPTH(2)) u_count2 (.clk_i, .d_i(count_q20), .q_o(count_q22));
+  shade_delay #(.WIDTH(LOG2_W), .DEPTH(17)) u_whole (.clk_i, .d_i(whole_q2), .q_o(whole_q19));
+  shade_delay #(.WIDTH(1), .DEPTH(14)) u_flat (.clk_i, .d_i(flat_i), .q_o(flat_q14));
+  shade_delay #(.WIDTH(1), .DEPTH(13)) u_flat2 (.clk_i, .d_i(flat_q14), .q_o(flat_q27));
+
+  // ---- halvings until kappa <= t3: 8, 4, 2, 1 more, where one less than these is not enough --------------------------
+  logic [KAPPA_W-1:0] kappa_q19, kappa_q24;
+  logic [3:0] halvings_q19;
+  logic [5*KAPPA_W-1:0] ladder;
+  assign ladder[0+:KAPPA_W] = kappa_q15;
+  assign kappa_q19          = ladder[4*KAPPA_W+:KAPPA_W];
+  for (genvar i = 0; i < 4; i++) begin : g_halve
+    localparam int TIMES = 8 >> i;
+    logic [KAPPA_W-1:0] kappa, kappa_q;
+    logic over, over_q;
+    assign kappa = ladder[i*KAPPA_W+:KAPPA_W];
+    assign over  = kappa >> 2 * (TIMES - 1) > t3_i;
+    always_ff @(posedge clk_i) begin
+      kappa_q <= over ? kappa >> 2 * TIMES : kappa;
+      over_q  <= over;
+    end
+    assign ladder[(i+1)*KAPPA_W+:KAPPA_W] = kappa_q;
+    shade_delay #(.WIDTH(1), .DEPTH(3 - i)) u_over (.clk_i, .d_i(over_q), .q_o(halvings_q19[3-i]));
+  end
+
+  // ---- length and degree of the main records ---------------------------------------------------------------------
+  logic [LOG2_W-1:0] room, log2_q20, log2_q21, log2_q22, log2_q23;
+  logic [DEGREE_W-1:0] degree_q21;
+  logic direct_q20, direct_q21, direct_q22, direct_q27, linear_q20, quadratic_q20;
+  assign room = whole_q19 > LOG2_MIN ? whole_q19 - LOG2_MIN : '0;
+  always_ff @(posedge clk_i) begin
+    direct_q20    <= halvings_q19 > room;
+    log2_q20      <= whole_q19 - halvings_q19;
+    linear_q20    <= kappa_q19 <= t1_i;
+    quadratic_q20 <= kappa_q19 <= t2_i;
+
+    direct_q21 <= direct_q20;
+    log2_q21   <= direct_q20 ? LOG2_MIN : log2_q20;
+    if (direct_q20) degree_q21 <= DEGREE_W'(shade_pkg::DEGREE_DIRECT);
+    else if (linear_q20) degree_q21 <= DEGREE_W'(shade_pkg::DEGREE_LINEAR);
+    else if (quadratic_q20) degree_q21 <= DEGREE_W'(shade_pkg::DEGREE_QUADRATIC);
+    else degree_q21 <= DEGREE_W'(shade_pkg::DEGREE_CUBIC);
+  end
+
+  // ---- how many there are, and what is left: a curved record may end on a pixel more, its last node ------------------
+  // count - 1 = before + low for direct ones, count - 2 for others: the last arc has bits(low - 1) or bits(low)
+  logic [COUNT_W-1:0] ends, before_q21, before_q22, low, low_q22, main_q22, main_q23, last_count_q23;
+  logic [LOG2_W-1:0] last_log2_q23;
+  assign ends = COUNT_W'(direct_q20 ? 1 : 2);
+  assign low  = before_q21 & ~({COUNT_W{1'b1}} << log2_q21);
+  always_ff @(posedge clk_i) begin
+    before_q21 <= count_q20 < ends ? '0 : count_q20 - ends;
+
+    before_q22 <= before_q21 & ~low;
+    low_q22    <= low;
+    main_q22   <= before_q21 >> {log2_q21[3:2], 2'b00};
+    log2_q22   <= log2_q21;
+    direct_q22 <= direct_q21;
+
+    main_q23       <= main_q22 >> log2_q22[1:0];
+    last_count_q23 <= count_q22 - before_q22;
+    last_log2_q23  <= bits(direct_q22 ? COUNT_W'({&low_q22[1:0], low_q22[1] && !low_q22[0]}) : low_q22);
+    log2_q23       <= log2_q22;
+  end
+
+  // ---- degree of the last record ---------------------------------------------------------------------------------
+  logic [LOG2_W-1:0] shorter_q24;
+  logic [1:0] shorter_q25;
+  logic [KAPPA_W-1:0] kappa_q25, kappa_q26;
+  logic linear_q27, quadratic_q27;
+  logic [2:0] few_q24, few_q27;  // at most 4, 3, 2 pixels
+  shade_delay #(.WIDTH(KAPPA_W), .DEPTH(5)) u_ladder (.clk_i, .d_i(kappa_q19), .q_o(kappa_q24));
+  shade_delay #(.WIDTH(1), .DEPTH(5)) u_direct (.clk_i, .d_i(direct_q22), .q_o(direct_q27));
+  shade_delay #(.WIDTH(3), .DEPTH(3)) u_few (.clk_i, .d_i(few_q24), .q_o(few_q27));
+  always_ff @(posedge clk_i) begin
+    shorter_q24   <= log2_q23 - last_log2_q23;
+    for (int i = 0; i < 3; i++) few_q24[i] <= last_count_q23 <= COUNT_W'(i + 2);
+    shorter_q25   <= shorter_q24[1:0];
+    kappa_q25     <= kappa_q24 >> {shorter_q24[3:2], 3'b000};
+    kappa_q26     <= kappa_q25 >> {shorter_q25, 1'b0};
+    linear_q27    <= kappa_q26 <= t1_i;
+    quadratic_q27 <= kappa_q26 <= t2_i;
+
+    if (fixed_degree_i != '0 && !flat_q27) last_degree_o <= few_q27[2] ? '0 : fixed_degree_i;
+    else if (direct_q27) last_degree_o <= '0;
+    else if (linear_q27) last_degree_o <= few_q27[0] ? '0 : DEGREE_W'(shade_pkg::DEGREE_LINEAR);
+    else if (quadratic_q27) last_degree_o <= few_q27[1] ? '0 : DEGREE_W'(shade_pkg::DEGREE_QUADRATIC);
+    else last_degree_o <= few_q27[2] ? '0 : DEGREE_W'(shade_pkg::DEGREE_CUBIC);
+  end
+
+  localparam int REST_W = COUNT_W + LOG2_W + COUNT_W + LOG2_W;
+  shade_delay #(.WIDTH(REST_W), .DEPTH(5)) u_plan (
+    .clk_i, .d_i({main_q23, log2_q23, last_count_q23, last_log2_q23}), .q_o({main_o, log2_o, last_count_o, last_log2_o})
+  );
+  shade_delay #(.WIDTH(DEGREE_W), .DEPTH(7)) u_degree (.clk_i, .d_i(degree_q21), .q_o(degree_o));
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_PLANNER)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+endmodule

@@ -1,0 +1,156 @@
+"""The shading core on whole frames: spans and settings in, pixels out, everything compared with the golden model.
+
+What the Verilated ``shade_core`` gives, value, tag and end mark of every pixel, counters and status, is compared with
+``golden.core``, bit for bit.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import sim
+from golden import contract as k
+from golden import core as golden
+from golden import registers
+from golden.normal import pack_lines
+from golden.reference.light import dot, unit
+from sim.scene.raster import Spans
+
+Ints = NDArray[np.int64]
+TAGS = 1 << k.TAG_W
+OFFSETS = {register.name: register.offset for register in registers.registers()}
+COUNTERS = [register.name for register in registers.GROUPS["Counters"]]
+TOLD = ("light_model", "light_range", "light_zero", "light_saturated", "normal_zero", "normal_short")  # as in ``flags``
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Spans as the core takes them: normal and increment (S, 3) S2.29, pixels, cosine of the ends S1.16, tag (S,)."""
+
+    n: Ints
+    g: Ints
+    count: Ints
+    cosine: Ints
+    tag: Ints
+
+    @classmethod
+    def of(cls, spans: Spans) -> Lines:
+        """Quantized, to nearest. A span of one pixel needs no increment; slivers have some that no format could hold.
+
+        Of others none exceeds 2: with both ends a component of a normal is within [-1, 1].
+        """
+        gradient = np.where(spans.count[:, None] > 1, spans.gradient, 0)
+        n, g = (np.rint(part * (1 << k.STEP_F)).astype(np.int64) for part in (spans.normal, gradient))
+        last = spans.normal + (spans.count[:, None] - 1) * gradient
+        cosine = quantize(dot(unit(spans.normal), unit(last)))
+        return cls(n, g, spans.count.astype(np.int64), cosine, np.arange(len(spans)) % TAGS)
+
+    @property
+    def beats(self) -> NDArray[np.uint32]:
+        """(S, 8): ``s_axis_span_tdata``."""
+        return pack_lines(self.n, self.g, self.count, self.cosine, self.tag)
+
+
+def quantize(value: ArrayLike) -> Ints:
+    """Intensity, cosine or component of a vector to S1.16, to nearest, saturating."""
+    limit = 1 << k.INTENSITY_W - 1
+    return np.clip(np.rint(np.multiply(value, 1 << k.INTENSITY_F)), -limit, limit - 1).astype(np.int64)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What the core made of spans. ``pixels`` (P, 2) U0.16: in the order of the spans, 0 where none came."""
+
+    pixels: Ints
+    golden: golden.Drawn
+    clocks: int
+    seconds: float  # of simulation
+    counters: dict[str, int]
+    status: list[str]  # names of the bits that are set
+    mismatches: int  # pixels
+    first_mismatch: dict = field(default_factory=dict)
+    counter_mismatches: dict[str, str] = field(default_factory=dict)  # by name: "expected 1 actual 2"
+
+
+def draw(
+    lines: Lines, words: Mapping[str, int], stage: Callable[[str], None] = lambda name: None, **parameters: int
+) -> Drawn:
+    """Draw spans by ``shade_core`` at a parameter point, settings by the names of ``golden.registers``; compare."""
+    model = sim.load("shade_core", **parameters)
+    stage("simulate")
+    beats, writes = lines.beats, registers.pack(words)
+    began = time.perf_counter()
+    run = model.run(s_axis_span_tdata=beats, writes=writes, reads=[OFFSETS[name] for name in ("STATUS", *COUNTERS)])
+    seconds = time.perf_counter() - began
+    stage("compare")
+    wanted = golden.lane(
+        lines.n, lines.g, lines.count, words, cosine=lines.cosine,
+        evaluator=parameters["EVALUATOR"], form=parameters["FORM"],
+    )  # fmt: skip
+    pixels, mismatches, first = compare(run.outputs, lines, beats, wanted)
+    if first.get("input", "none") != "none":
+        first["again"] = model.again(s_axis_span_tdata=beats[first["span"]], writes=writes)
+    status, *counted = run.reads
+    counters = dict(zip((name.lower() for name in COUNTERS), counted, strict=True))
+    bits = registers.unpack(OFFSETS["STATUS"], status)
+    return Drawn(
+        pixels, wanted, run.clocks, seconds, counters, [name for name, bit in bits.items() if bit], mismatches, first,
+        compare_counters(counters, bits, wanted),
+    )  # fmt: skip
+
+
+def compare(
+    outputs: Mapping[str, Ints], lines: Lines, beats: NDArray[np.uint32], wanted: golden.Drawn
+) -> tuple[Ints, int, dict]:
+    """The pixels (P, 2) that came, the number of those that differ, and the first of these.
+
+    It is told by ``pixel``, ``span`` and ``input``, ``expected`` and ``actual`` as {tlast, tuser, tdata}.
+    """
+    owner = wanted.span
+    ends = np.append(np.diff(owner), 1)[: len(owner)] != 0
+    expected = join(ends.astype(np.int64), lines.tag[owner], wanted.pixels[:, 0] | wanted.pixels[:, 1] << k.PIXEL_W)
+    actual = join(*(outputs[f"m_axis_pixel_{name}"] for name in ("tlast", "tuser", "tdata")))
+    count, came = len(expected), len(actual)
+    shared = min(count, came)
+    wrong = np.flatnonzero(expected[:shared] != actual[:shared])
+    mismatches, first = len(wrong) + abs(count - came), {}
+    if mismatches:
+        at = int(wrong[0]) if len(wrong) else shared
+        span = int(owner[at]) if at < count else -1
+        first = {
+            "pixel": at,
+            "span": span,
+            "input": f"0x{beats[span, ::-1].astype('>u4').tobytes().hex()}" if span >= 0 else "none",
+            "expected": f"{expected[at]:#x}" if at < count else "none",
+            "actual": f"{actual[at]:#x}" if at < came else "none",
+        }
+    data = np.zeros(count, np.int64)
+    data[:shared] = actual[:shared]
+    mask = (1 << k.PIXEL_W) - 1
+    return np.stack([data & mask, data >> k.PIXEL_W & mask], axis=-1), mismatches, first
+
+
+def join(last: Ints, tag: Ints, data: Ints) -> Ints:
+    """Beats of ``m_axis_pixel`` as {tlast, tuser, tdata}."""
+    return (last << k.TAG_W | tag) << k.PIXEL_DATA_W | data
+
+
+def compare_counters(counters: Mapping[str, int], bits: Mapping[str, int], wanted: golden.Drawn) -> dict[str, str]:
+    """What differs from the golden model among counters and bits of STATUS."""
+    flags = int(np.bitwise_or.reduce(wanted.flags, initial=0))
+    expected = {
+        "pixels": len(wanted.pixels),
+        "spans": len(np.unique(wanted.span)),
+        "evaluations": len(wanted.flags),
+        "errors": 0,
+        **{name: flags >> bit & 1 for bit, name in enumerate(TOLD)},
+    }
+    actual = {**counters, **bits}
+    return {
+        name: f"expected {value} actual {actual[name]}" for name, value in expected.items() if value != actual[name]
+    }

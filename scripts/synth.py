@@ -39,6 +39,7 @@ from scripts.points import VARIANTS
 from scripts.report import save
 from sim.errors import UserError
 from sim.sources import BUILD, Point, label, modules, sources, yardsticks
+from sim.verilate import reached
 
 OUT = BUILD / "synth.json"
 WORK = BUILD / "synth"
@@ -126,7 +127,7 @@ class Design:
 def designs(names: list[str] | None = None) -> list[Design]:
     """Every design, or those of the named modules; UserError for a name that is none."""
     listed = [(module, sources()) for module in modules()]
-    listed += [(module, [*sources(), path]) for module, path in yardsticks().items()]
+    listed += [(module, reached(module)) for module in yardsticks()]
     known = [module for module, _ in listed]
     for name in names or []:
         if name not in known:

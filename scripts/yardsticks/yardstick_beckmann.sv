@@ -93,8 +93,9 @@ module yardstick_beckmann #(
   logic [26:0] dd_q26;
   logic signed [17:0] r_q30;
   logic signed [35:0] tr_q32;
-  assign d_q24 = {~b_q24[13], b_q24[12:0]};
   always_ff @(posedge clk_i) begin
+    // registers of its own: Yosys' iCE40 flow fails on a factor that is part register, part inverter
+    d_q24 <= {~b_shifted[30], b_shifted[29:17]};
     case (b_q24[17:14])
       4'd0:  t_q25 <= 21'd2052214;
       4'd1:  t_q25 <= 21'd1965207;

@@ -49,13 +49,13 @@ def collect(nodes: Nodes, intensity: ArrayLike) -> Int:
 def lane(
     n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], *, flat: ArrayLike = 0,
     cosine: ArrayLike = 0, evaluator: int = k.EVALUATOR_FDIFF, form: int = k.FORM_REFINED, reflect: int = 1,
-    divide: int = 1,
+    divide: int = 1, path_normals: int = 1,
 ) -> Drawn:  # fmt: skip
     """The pixels of spans of 1 .. 4096 pixels: ``n``, ``g`` (S, 3) S2.29, normal and increment (``shade_lane``).
 
     ``draw``: settings by the names of ``golden.registers``, others as reset leaves them. ``flat``: the triangle passed
     P2's criterion: with Lambert's light alone a line without normalizing. ``cosine``: of the span's ends, S1.16, for V1
-    and V2 of path normals.
+    and V2 of path normals, which ``path_normals`` = 0 leaves out.
 
     >>> from golden.material import Material, planner_registers, registers
     >>> surface = Material("lambert")
@@ -66,7 +66,7 @@ def lane(
     n, g = integers(n, g)
     count, flat, cosine = integers(count, flat, cosine)
     draw = after_reset() | dict(draw)
-    if draw["path"] == k.PATH_NORMALS:
+    if path_normals and draw["path"] == k.PATH_NORMALS:
         normal, span = pixel_normals(n, g, count, cosine, draw["variant"], draw["threshold"])
         diffuse, specular, flags = light(*normal.T, draw, form, reflect, divide)
         return Drawn(saturate(np.stack([diffuse, specular], -1), k.PIXEL_W), span, flags, len(span))

@@ -255,9 +255,12 @@ def line_errors(count: ArrayLike, variant: ArrayLike, threshold: ArrayLike) -> I
     return np.where(bad > 0, bad, (m_error & asks) << k.LINE_ERROR_METRIC | threshold_error << k.LINE_ERROR_THRESHOLD)
 
 
-def pack_lines(n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, tag: ArrayLike = 0) -> np.ndarray:
-    """Lines as beats of ``s_axis_line_tdata``: (S, 8) uint32. Layout: golden.contract."""
+def pack_lines(
+    n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, tag: ArrayLike = 0, flat: ArrayLike = 0
+) -> np.ndarray:
+    """Lines as beats of ``s_axis_line_tdata``, or ``s_axis_span_tdata``: (S, 8) uint32. Layout: golden.contract."""
     n, g = integers(n, g)
-    count, cosine, tag = integers(count, cosine, tag)
-    words = [*n.T, *g.T, count | tag << k.LINE_TAG_LSB - k.LINE_COUNT_LSB, cosine & ((1 << k.INTENSITY_W) - 1)]
+    count, cosine, tag, flat = integers(count, cosine, tag, flat)
+    ends = cosine & ((1 << k.INTENSITY_W) - 1) | flat << k.LINE_FLAT - k.LINE_COS_LSB
+    words = [*n.T, *g.T, count | tag << k.LINE_TAG_LSB - k.LINE_COUNT_LSB, ends]
     return (np.stack(words, axis=-1) & 0xFFFFFFFF).astype(np.uint32)

@@ -208,15 +208,18 @@ package shade_pkg;
   localparam int LATENCY_FACTOR = 31;  // the lobe, and what it is multiplied by
   localparam int LATENCY_ANGLES = 17;  // R, choice of R, V or N, H
   localparam int LATENCY_LIGHT = 57;
+  localparam int LATENCY_LIGHT_FOLDED = 56;  // the versine's six products, the gain's three
   localparam int LATENCY_LIGHT_LOCAL = 72;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
   localparam int LATENCY_PLANNER = 28;  // see shade_planner
-  localparam int LATENCY_LANE = 0;  // set below
   localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
+  localparam int LATENCY_RECORD = 81;  // normal to pixel
+  localparam int LATENCY_LANE = 133;
+  localparam int LATENCY_LANE_NORMALS = 124;  // the path of normals
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 82;  // span, ..., clamp, FIFO
 

@@ -22,10 +22,12 @@ class Spans:
     step: np.ndarray
     count: np.ndarray
     tag: np.ndarray
+    cosine: np.ndarray
+    flat: np.ndarray
 
     def words(self) -> list[tuple[int]]:
         """What a source sends as ``s_axis_span_tdata``."""
-        beats = pack_lines(self.normal, self.step, self.count, 0, self.tag)
+        beats = pack_lines(self.normal, self.step, self.count, self.cosine, self.tag, self.flat)
         return [(whole(beat),) for beat in beats]
 
     @property
@@ -48,7 +50,8 @@ def spans(bench: Bench, count: ArrayLike) -> Spans:
     normal, step = (
         np.select([kind == 0, kind == 1], [part, 0], v) for part, v in zip(free, (normal, step), strict=True)
     )
-    return Spans(normal, step, count, rng.integers(0, 1 << k.TAG_W, rows))
+    tag, cosine, flat = rng.integers(0, 1 << k.TAG_W, rows), bench.signed(k.INTENSITY_W, rows), rng.integers(0, 2, rows)
+    return Spans(normal, step, count, tag, cosine, flat)
 
 
 def settings(bench: Bench, code: int) -> dict[str, int]:

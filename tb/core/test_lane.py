@@ -1,0 +1,194 @@
+"""shade_lane: spans in, pixels out, to the bit of golden.core.lane, by either path, with pauses."""
+
+import random
+
+import cocotb
+import numpy as np
+
+from golden import contract as k
+from golden.core import Drawn, lane
+from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
+from tb.core.vectors import Spans, set_draw, settings, spans
+from tb.light.vectors import CODES
+from tb.runner import points, simulate
+
+SPAN, PIXEL = "s_axis_span_", "m_axis_pixel_"
+PAYLOAD = [PIXEL + name for name in ("tdata", "tuser", "tlast")]
+PATHS = [k.PATH_POLY, k.PATH_NORMALS]
+
+
+@points({}, {"EVALUATOR": k.EVALUATOR_HORNER, "FORM": k.FORM_PAPER, "REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0})
+def test_cocotb(point):
+    simulate("shade_lane", point)
+
+
+class Lights:
+    """Where light was computed: ``flags`` of every node or pixel from now on."""
+
+    def __init__(self, bench: Bench):
+        self.flags: list[int] = []
+        cocotb.start_soon(self._run(bench))
+
+    async def _run(self, bench: Bench) -> None:
+        while True:
+            await bench.tick()
+            if int(bench.dut.lit_o.value):
+                self.flags.append(int(bench.dut.flags_o.value))
+
+
+class Lane:
+    """A lane with something that sends spans, something that takes pixels, something that looks at the lights."""
+
+    def __init__(self, bench: Bench, stall: float = 0.0):
+        self.bench = bench
+        self.source = Source(bench, SPAN + "tvalid", SPAN + "tready", [SPAN + "tdata"])
+        self.sink = Sink(bench, PIXEL + "tvalid", PIXEL + "tready", PAYLOAD, stall)
+        self.lights = Lights(bench)
+
+    async def begin(self, draw: dict[str, int]) -> None:
+        """The next draw call, behind a reset."""
+        await self.bench.reset()
+        set_draw(self.bench, draw)
+        self.source.clocks.clear()
+        self.sink.forget()
+        self.lights.flags.clear()
+
+    def golden(self, draw: dict[str, int], sent: Spans) -> Drawn:
+        """What is to come of the spans."""
+        names = ("evaluator", "form", "reflect", "divide", "path_normals")
+        options = {name: self.bench.parameter(name.upper()) for name in names}
+        return lane(sent.normal, sent.step, sent.count, draw, flat=sent.flat, cosine=sent.cosine, **options)
+
+    async def compare(self, draw: dict[str, int], sent: Spans) -> None:
+        """Wait for all pixels of the spans and compare them, and the flags of all lights; no more may come."""
+        bench, drawn = self.bench, self.golden(draw, sent)
+        words = [*zip(*map(np.ndarray.tolist, pixel_words(drawn, sent.tag)), strict=True)]
+        await bench.until(
+            lambda: len(self.sink.words) >= len(words), 4 * len(words) + 3 * k.LATENCY_LANE, f"{len(words)} pixels"
+        )
+        await bench.tick(k.LATENCY_LANE + 20)
+        bench.equal(len(self.sink.words), len(words), "number of pixels")
+        for index, (word, wanted) in enumerate(zip(self.sink.words, words, strict=True)):
+            what = f"pixel {index} (span {drawn.span[index]})"
+            for name, actual, value in zip(PAYLOAD, word, wanted, strict=True):
+                bench.equal(actual, value, f"{what}: {name}", bench.bits(name))
+        bench.equal(len(self.lights.flags), len(drawn.flags), "number of lights")
+        for index, (actual, wanted) in enumerate(zip(self.lights.flags, drawn.flags.tolist(), strict=True)):
+            bench.equal(actual, wanted, f"light {index}: flags_o", k.LANE_FLAGS_W)
+
+
+def pixel_words(drawn: Drawn, tag: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """tdata, tuser and tlast of all pixels."""
+    tdata = drawn.pixels[:, 0] | drawn.pixels[:, 1] << k.PIXEL_W
+    return tdata, tag[drawn.span], np.append(np.diff(drawn.span), 1) != 0
+
+
+@checked(path=PATHS, **PRESSURE)
+async def traffic(bench: Bench, path: int, gap: float, stall: float) -> None:
+    """Spans of all kinds under light of every model, adaptive and of fixed degree, with pauses or without."""
+    lane = Lane(bench, stall)
+    for code in CODES:
+        draw = settings(bench, code) | {"path": path, "variant": code, "fixed_degree": random.choice([0, 0, 1, 2, 3])}
+        sent = spans(bench, bench.rng.choice([1, 2, 3, 4, 5, 6, 9, 17, 40], 15))
+        await lane.begin(draw)
+        await lane.source.send(sent.words(), gap)
+        await lane.compare(draw, sent)
+
+
+@checked(path=PATHS, degree=[1, 2, 3])
+async def latency(bench: Bench, path: int, degree: int) -> None:
+    """From a span to its first pixel, in an empty lane: a clock more for every node of its record but one."""
+    lane = Lane(bench)
+    draw = settings(bench, k.MODEL_BLINN) | {"path": path, "fixed_degree": degree}
+    normals = path == k.PATH_NORMALS and bench.parameter("PATH_NORMALS")
+    wanted = k.LATENCY_LANE_NORMALS if normals else k.LATENCY_LANE
+    if not bench.parameter("REFLECT"):
+        wanted -= k.LATENCY_REFLECT
+    if bench.parameter("EVALUATOR") == k.EVALUATOR_HORNER:
+        wanted += k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_SPAN_FDIFF
+    for count in (1, 2, 3, 4, 5, 30):
+        sent = spans(bench, [count])
+        sent.flat[:] = 0
+        await lane.begin(draw)
+        await lane.source.send(sent.words())
+        await lane.compare(draw, sent)
+        nodes = 1 if normals else count if count <= k.DIRECT_MAX else degree + 1
+        bench.equal(lane.sink.clocks[0] - lane.source.clocks[0], wanted + nodes - 1, f"latency of {count} pixels")
+
+
+@checked(path=PATHS, count=[1, 2, 3, 4, 5, 33])
+async def throughput(bench: Bench, path: int, count: int) -> None:
+    """N pixels in N clocks: no bubble between spans, however short."""
+    lane = Lane(bench)
+    draw = settings(bench, k.MODEL_BLINN) | {"path": path, "fixed_degree": k.DEGREE_CUBIC}
+    sent = spans(bench, [count] * max(200 // count, 8))
+    await lane.begin(draw)
+    await lane.source.send(sent.words())
+    await lane.compare(draw, sent)
+    bench.equal(lane.sink.clocks[-1] - lane.sink.clocks[0] + 1, sent.count.sum(), "clocks of all pixels")
+
+
+@checked(path=PATHS)
+async def longest(bench: Bench, path: int) -> None:
+    """A span of 4096 pixels between two short ones; its pixels follow each other."""
+    lane = Lane(bench)
+    draw = settings(bench, k.MODEL_BLINN) | {"path": path}
+    sent = spans(bench, [2, k.PIXELS_MAX, 3])
+    await lane.begin(draw)
+    await lane.source.send(sent.words())
+    await lane.compare(draw, sent)
+    bench.equal(lane.sink.clocks[-4] - lane.sink.clocks[2] + 1, k.PIXELS_MAX, "clocks of the longest")
+
+
+@checked(path=PATHS)
+async def blocked(bench: Bench, path: int) -> None:
+    """A sink that takes nothing for long: every place fills, nothing more is taken; all of it comes, one a clock."""
+    lane = Lane(bench, stall=1.0)
+    draw = settings(bench, k.MODEL_BLINN) | {"path": path, "fixed_degree": k.DEGREE_CUBIC}
+    sent = spans(bench, [9] * 220)
+    await lane.begin(draw)
+    sending = cocotb.start_soon(lane.source.send(sent.words()))
+    await bench.tick(1200)
+    pixels = 1 << k.FIFO_LOG2
+    if path == k.PATH_NORMALS and bench.parameter("PATH_NORMALS"):
+        held = (pixels + 1 + (1 << k.RECORD_FIFO_LOG2) + (1 << k.NORMAL_FIFO_LOG2)) // 9 + 1
+    else:  # records begun, with a credit; two spans in the walk
+        held = pixels // 9 + 1 + (1 << k.RECORD_FIFO_LOG2) + 2 + (1 << k.SPAN_FIFO_LOG2)
+    bench.equal(len(lane.source.clocks), held, "spans taken while the sink is not ready")
+    lane.sink.stall = 0.0
+    await sending
+    await lane.compare(draw, sent)
+    bench.equal(lane.sink.clocks[-1] - lane.sink.clocks[0] + 1, sent.count.sum(), "clocks of all pixels")
+
+
+@checked(path=PATHS, stall=[0.0, 0.5, 1.0])
+async def reset(bench: Bench, path: int, stall: float) -> None:
+    """Reset in the middle of a span: nothing of it remains, the next spans are whole, the credits are back."""
+    lane = Lane(bench)
+    for code in (k.MODEL_PHONG, k.MODEL_WARD, k.MODEL_LAMBERT):
+        draw = settings(bench, code) | {"path": path}
+        set_draw(bench, draw)
+        lane.sink.stall = stall
+        sending = cocotb.start_soon(lane.source.send(spans(bench, bench.rng.integers(1, 60, 100)).words(), 0.2))
+        await bench.tick(random.randrange(20, 2 * k.LATENCY_LANE))
+        sending.cancel()
+        lane.source.withdraw()
+        await lane.begin(draw)
+        lane.sink.stall = 0.0
+        await bench.tick(k.LATENCY_LANE + 20)
+        bench.equal(len(lane.sink.words) + len(lane.lights.flags), 0, "pixels and lights behind a reset")
+        sent = spans(bench, [7, 2, 30])
+        await lane.source.send(sent.words())
+        await lane.compare(draw, sent)
+
+
+@checked(path=PATHS)
+async def paths(bench: Bench, path: int) -> None:
+    """No output follows an input within a clock."""
+    lane = Lane(bench, stall=0.3)
+    draw, sent = settings(bench, k.MODEL_BLINN) | {"path": path}, spans(bench, bench.rng.integers(1, 9, 25))
+    await lane.begin(draw)
+    inputs = [SPAN + "tvalid", SPAN + "tdata", PIXEL + "tready"]
+    cocotb.start_soon(no_path(bench, inputs, [SPAN + "tready", PIXEL + "tvalid", *PAYLOAD, "lit_o", "flags_o"]))
+    await lane.source.send(sent.words(), 0.3)
+    await lane.compare(draw, sent)

@@ -5,8 +5,10 @@
 //   set_clock, set_reset, set_in_valid, set_out_ready  drive a port, if it is there
 //   in_ready, out_valid                                read one; true where there is none
 //   drive, collect, read_status                        a row of inputs, of outputs, the status
+//   AXIL                                               1: the module has registers on s_axil_*
 // and WAVES. The generated part knows the names, this file the protocol:
 //
+//   registers         are written after reset, before the streams, and read when these are drained
 //   CLOCKED = false   combinational: a row is evaluated at once
 //   input             transfers when it is offered and in_ready
 //   output            transfers when valid and ready; without OUT_VALID a row leaves `latency` clocks after it entered
@@ -33,6 +35,7 @@ struct Session {
     std::vector<std::vector<uint64_t>> out;  // a vector a port, `words` entries a row
     std::vector<uint64_t> taken, given;      // the clock of every transfer
     uint64_t clocks = 0;
+    uint64_t resting = 0;  // clocks in which the streams rest
     uint64_t status[STATUS_PORTS + 1] = {};
 #if WAVES
     VerilatedVcdC trace;
@@ -65,6 +68,41 @@ struct Session {
     }
 };
 
+#if AXIL
+// A word [0]: offset, [1]: what is written, or read. 0: done; 2: an error response; 3: no answer for `patience` clocks
+int access(Session& s, bool write, uint32_t* word, uint64_t patience) {
+    DUT& t = *s.top;
+    t.s_axil_awvalid = t.s_axil_wvalid = t.s_axil_bready = write;
+    t.s_axil_arvalid = t.s_axil_rready = !write;
+    t.s_axil_awaddr = t.s_axil_araddr = word[0];
+    t.s_axil_wdata = word[1];
+    for (const uint64_t end = s.resting + patience; s.resting < end; s.resting++) {
+        set_clock(t, 0);
+        s.eval();
+        const bool aw = t.s_axil_awready, w = t.s_axil_wready, ar = t.s_axil_arready;
+        const bool answer = write ? t.s_axil_bvalid : t.s_axil_rvalid;
+        const bool error = write ? t.s_axil_bresp : t.s_axil_rresp;
+        if (!write) word[1] = t.s_axil_rdata;
+        set_clock(t, 1);
+        s.eval();
+        if (aw) t.s_axil_awvalid = 0;
+        if (w) t.s_axil_wvalid = 0;
+        if (ar) t.s_axil_arvalid = 0;
+        if (answer) return error ? 2 : 0;
+    }
+    return 3;
+}
+
+void rest(DUT& t) {
+    t.s_axil_awvalid = t.s_axil_wvalid = t.s_axil_arvalid = t.s_axil_bready = t.s_axil_rready = 0;
+    t.s_axil_awprot = t.s_axil_arprot = 0;
+    t.s_axil_wstrb = 0xf;
+}
+#else
+int access(Session&, bool, uint32_t*, uint64_t) { return 0; }
+void rest(DUT&) {}
+#endif
+
 }  // namespace
 
 extern "C" {
@@ -75,12 +113,15 @@ struct Job {
     uint32_t in_gap, out_stall;  // probabilities in 1/65536 a clock
     uint64_t seed, latency, drain, patience;
     const char* waves;
+    uint32_t (*words)[2];  // offset and word, of registers to write, then of those to read
+    uint64_t writes, reads;
     uint64_t given;  // out: number of rows
     uint64_t clocks;  // out: up to and with the last transfer of an output
     uint64_t simulated;  // out: all clocks
+    uint64_t accesses;  // out: registers that were written and read
 };
 
-// 0: done; 1: the module took no input and gave no output for `patience` clocks
+// 0: done; 1: the module took no input and gave no output for `patience` clocks; 2, 3: see access, of word `accesses`
 int model_run(Job* job, void** session) {
     auto* s = new Session(job->seed, job->waves);
     *session = s;
@@ -101,6 +142,8 @@ int model_run(Job* job, void** session) {
             collect(*s->top, s->out);
         }
     } else {
+        if (job->rows) drive(*s->top, job->in, 0);  // settings among the inputs
+        rest(*s->top);
         set_reset(*s->top, 1);
         set_in_valid(*s->top, 0);
         set_out_ready(*s->top, 0);
@@ -111,7 +154,13 @@ int model_run(Job* job, void** session) {
             s->eval();
         }
         set_reset(*s->top, 0);
-        for (;; clock++) {
+        auto accesses = [&](bool write, uint64_t end) {
+            for (; !result && job->accesses < end; job->accesses += !result)
+                result = access(*s, write, job->words[job->accesses], job->patience);
+            rest(*s->top);
+        };
+        accesses(true, job->writes);
+        for (; !result; clock++) {
             set_clock(*s->top, 0);
             if (!offer && next < job->rows && !(job->in_gap && random.chance(job->in_gap))) {
                 drive(*s->top, job->in, next);
@@ -146,11 +195,14 @@ int model_run(Job* job, void** session) {
                 break;
             }
         }
+        set_in_valid(*s->top, 0);
+        set_out_ready(*s->top, 0);
+        accesses(false, job->writes + job->reads);
         read_status(*s->top, s->status);
     }
     job->given = s->given.size();
     job->clocks = CLOCKED ? s->clocks : clock;
-    job->simulated = clock;
+    job->simulated = clock + s->resting;
     return result;
 }
 

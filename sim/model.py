@@ -12,6 +12,7 @@ import ctypes
 import operator
 import os
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,16 +27,20 @@ WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows 
 
 
 class SimulationError(Exception):
-    """The module stopped: no input was taken and no output given for too long."""
+    """The module stopped, no input was taken and no output given for too long; or an access to a register failed."""
 
 
 @dataclass(frozen=True)
 class Channel:
-    """One side of a module: its data ports, and the names of valid and ready (None: there is none)."""
+    """One side of a module: its data ports, and the names of valid and ready (None: there is none).
+
+    ``streams``: so many side by side, with a bit each in valid and ready.
+    """
 
     data: list[Port]
     valid: str | None
     ready: str | None
+    streams: int = 1
 
 
 @dataclass(frozen=True)
@@ -47,6 +52,7 @@ class Interface:
     into: Channel
     out: Channel
     status: list[Port]
+    address: Port | None  # of registers on s_axil_*
 
 
 def interface(ports: list[Port]) -> Interface:
@@ -54,8 +60,11 @@ def interface(ports: list[Port]) -> Interface:
 
     A port ``s_axis_<name>_tvalid`` makes all ports ``s_axis_<name>_*`` the input channel, and settings beside it change
     with its rows; otherwise all inputs but clock, reset and handshakes are, with ``valid_i`` and ``ready_o`` if there.
-    Outputs likewise with ``m_axis_<name>_*``, whose other outputs are status, or ``valid_o`` and ``ready_i``.
+    Outputs likewise with ``m_axis_<name>_*``, whose other outputs are status, or ``valid_o`` and ``ready_i``; if tvalid
+    has several bits, for streams side by side, it is one of the data ports. ``s_axil_*`` are no data ports.
     """
+    address = next((port for port in ports if port.name == "s_axil_awaddr"), None)
+    ports = [port for port in ports if not port.name.startswith("s_axil_")]
     names = {port.name for port in ports}
     handshakes = {"clk_i", "rst_i", "valid_i", "ready_i", "valid_o", "ready_o"}
 
@@ -63,16 +72,18 @@ def interface(ports: list[Port]) -> Interface:
         own = [port for port in ports if port.direction == direction and port.name not in handshakes]
         axis = next((m[1] for name in names if (m := re.match(rf"({prefix}_axis_\w+)_tvalid$", name))), None)
         if axis:
-            data = [p for p in own if p.name.startswith(axis) and not p.name.endswith(("_tvalid", "_tready"))]
+            (streams,) = (port.width for port in ports if port.name == f"{axis}_tvalid")
+            control = (f"{axis}_tready", *([f"{axis}_tvalid"] if streams == 1 else []))
+            data = [p for p in own if p.name.startswith(axis) and p.name not in control]
             rest = [p for p in own if p not in data and "_axis_" not in p.name]
-            return Channel(data, f"{axis}_tvalid", f"{axis}_tready"), rest
+            return Channel(data, f"{axis}_tvalid", f"{axis}_tready", streams), rest
         own = [p for p in own if "_axis_" not in p.name]
         return Channel(own, valid if valid in names else None, ready if ready in names else None), []
 
     into, settings = channel("input", "s", "valid_i", "ready_o")
     into = replace(into, data=into.data + settings)
     out, status = channel("output", "m", "valid_o", "ready_i")
-    return Interface("clk_i" in names, "rst_i" in names, into, out, status)
+    return Interface("clk_i" in names, "rst_i" in names, into, out, status, address)
 
 
 def _words(port: Port) -> int:
@@ -96,13 +107,15 @@ def _glue(ports: list[Port]) -> str:
             return f"  out[{index}].push_back(t.{port.name});\n"
         return f"  for (int w = 0; w < {_words(port)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
 
-    def setter(name: str, port: str | None) -> str:
-        return f"void {name}(DUT& t, int v) {{ {f't.{port} = v;' if port else '(void)t; (void)v;'} }}\n"
+    def setter(name: str, port: str | None, bits: int = 1) -> str:
+        body = f"t.{port} = v ? {(1 << bits) - 1} : 0;" if port else "(void)t; (void)v;"
+        return f"void {name}(DUT& t, bool v) {{ {body} }}\n"
 
     def getter(name: str, port: str | None) -> str:
         return f"bool {name}(DUT& t) {{ {f'return t.{port};' if port else '(void)t; return true;'} }}\n"
 
     return f"""
+#define AXIL {int(face.address is not None)}
 #include <cstdint>
 #include <vector>
 using DUT = Vdut;
@@ -111,7 +124,7 @@ constexpr int OUT_PORTS = {len(face.out.data)}, STATUS_PORTS = {len(face.status)
 namespace {{
 {setter("set_clock", "clk_i" if face.clock else None)}{setter("set_reset", "rst_i" if face.reset else None)}\
 {setter("set_in_valid", face.into.valid)}{getter("in_ready", face.into.ready)}\
-{getter("out_valid", face.out.valid)}{setter("set_out_ready", face.out.ready)}\
+{getter("out_valid", face.out.valid)}{setter("set_out_ready", face.out.ready, face.out.streams)}\
 inline void drive(DUT& t, const void* const* in, uint64_t row) {{
 {"".join(drive(port, i) for i, port in enumerate(face.into.data))}}}
 inline void collect(DUT& t, std::vector<std::vector<uint64_t>>& out) {{
@@ -141,9 +154,13 @@ class _Job(ctypes.Structure):
         ("drain", ctypes.c_uint64),
         ("patience", ctypes.c_uint64),
         ("waves", ctypes.c_char_p),
+        ("words", ctypes.c_void_p),
+        ("writes", ctypes.c_uint64),
+        ("reads", ctypes.c_uint64),
         ("given", ctypes.c_uint64),
         ("clocks", ctypes.c_uint64),
         ("simulated", ctypes.c_uint64),
+        ("accesses", ctypes.c_uint64),
     )
 
 
@@ -151,12 +168,22 @@ class Run:
     """What a run gave: every data output as an array attribute of its name, and when.
 
     ``taken[i]``, ``given[j]``: the clock (0: the first after reset) of input transfer i and of output transfer j;
-    ``clocks``: clocks up to and with the last output; ``simulated``: all clocks; ``status``: status outputs at the end.
+    ``clocks``: clocks up to and with the last output; ``simulated``: all clocks; ``status``: status outputs at the end;
+    ``registers``: words that were read then, by offset.
     """
 
-    def __init__(self, outputs: dict[str, np.ndarray], taken, given, clocks: int, simulated: int, status):
+    def __init__(
+        self,
+        outputs: dict[str, np.ndarray],
+        taken,
+        given,
+        clocks: int,
+        simulated: int,
+        status,
+        registers: dict[int, int],
+    ):
         self.outputs, self.taken, self.given = outputs, taken, given
-        self.clocks, self.simulated, self.status = clocks, simulated, status
+        self.clocks, self.simulated, self.status, self.registers = clocks, simulated, status, registers
 
     def __getattr__(self, name: str) -> np.ndarray:
         outputs = self.__dict__.get("outputs", {})  # an object that is being copied has none yet
@@ -180,7 +207,7 @@ class Model:
     def __repr__(self) -> str:
         return f"{self.module}({', '.join(f'{name}={value}' for name, value in self.parameters.items())})"
 
-    def again(self, **inputs: ArrayLike) -> str:
+    def again(self, *, writes: Mapping[int, int] | None = None, **inputs: ArrayLike) -> str:
         """A command to paste at the repository's root that runs one row of inputs with a waveform.
 
         >>> print(sim.load("shade_third", WIDTH=18).again(x_i=100))
@@ -192,7 +219,10 @@ class Model:
             return f"[{', '.join(map(shown, parts))}]" if parts.ndim else f"{int(parts):#x}"
 
         point = "".join(f", {name}={value}" for name, value in self.parameters.items())
-        row = ", ".join(f"{name}={shown(value)}" for name, value in inputs.items())
+        given = [f"{name}={shown(value)}" for name, value in inputs.items()]
+        if writes:
+            given.append(f"writes={{{', '.join(f'{offset:#x}: {word:#x}' for offset, word in writes.items())}}}")
+        row = ", ".join(given)
         return f"python -c 'import sim; print(sim.load(\"{self.module}\", waves=True{point}).run({row}).outputs)'"
 
     def _inputs(self, inputs: dict[str, ArrayLike]) -> tuple[int, list[np.ndarray]]:
@@ -226,6 +256,20 @@ class Model:
             raise UserError(f"{name}: the last word of a row has more than {bits} bits")
         return array.reshape(-1, *shape)
 
+    def _accesses(self, writes: Mapping[int, int], reads: list[int]) -> np.ndarray:
+        """Rows of offset and word as harness.cpp takes them: what is written, then what is read."""
+        address = self.interface.address
+        if (writes or reads) and not address:
+            raise UserError(f"{self.module}: writes or reads given, but it has no registers on s_axil_*")
+        words = [(*map(operator.index, pair),) for pair in (*writes.items(), *((offset, 0) for offset in reads))]
+        for offset, word in words:
+            if not (0 <= offset < 1 << address.width and 0 <= word < 1 << 32):
+                raise UserError(
+                    f"{self.module}: word {word:#x} at offset {offset:#x}, allowed 0 .. 0xffffffff at "
+                    f"0 .. {(1 << address.width) - 1:#x}"
+                )
+        return np.array(words, np.uint32).reshape(-1, 2)
+
     def run(
         self,
         *,
@@ -235,6 +279,8 @@ class Model:
         latency: int = 0,
         drain: int = 256,
         patience: int = 100_000,
+        writes: Mapping[int, int] | None = None,
+        reads: Iterable[int] = (),
         **inputs: ArrayLike,
     ) -> Run:
         """Stream arrays through the module, one row a transfer.
@@ -242,10 +288,11 @@ class Model:
         ``inputs``: an array (rows,) or a number for every data input, by name; of ports of more than 64 bits (rows,
         words) or (words,) of 32 bits. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one
         without a consumer, where the module has a valid input, a ready input. ``latency``: of a module without
-        ``valid_o``. The run ends ``drain`` clocks after the last transfer.
+        ``valid_o``. The run ends ``drain`` clocks after the last transfer. Where the module has registers on
+        ``s_axil_*``, ``writes``, words by offset, come before the streams, and ``reads``, offsets, after them.
 
         Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing is taken
-        or given for ``patience`` clocks.
+        or given for ``patience`` clocks, and when a register answers with an error or not at all.
         """
         face = self.interface
         for option, chance, waits in (("in_gap", in_gap, face.into.valid), ("out_stall", out_stall, face.out.ready)):
@@ -253,28 +300,34 @@ class Model:
                 limit = "0 to 1" if waits else f"0, {self.module} cannot wait there"
                 raise UserError(f"{option}: {chance} is out of range, allowed is {limit}")
         rows, arrays = self._inputs(inputs)
+        writes, reads = dict(writes or {}), list(reads)
+        accesses = self._accesses(writes, reads)
         pointers = (ctypes.c_void_p * max(1, len(arrays)))(*(array.ctypes.data for array in arrays))
         waves = BUILD / "waves" / f"{self.module}.vcd"
         if self.waves:
             waves.parent.mkdir(parents=True, exist_ok=True)
         job = _Job(
             rows, ctypes.cast(pointers, ctypes.c_void_p), int(in_gap * 65536), int(out_stall * 65536), seed,
-            latency, drain, patience, str(waves).encode(),
+            latency, drain, patience, str(waves).encode(), accesses.ctypes.data, len(writes), len(reads),
         )  # fmt: skip
         session = ctypes.c_void_p()
         stopped = self._library.model_run(ctypes.byref(job), ctypes.byref(session))
         try:
-            return self._result(job, session, stopped, rows)
+            return self._result(job, session, stopped, rows, accesses)
         finally:
             self._library.model_free(session)
 
-    def _result(self, job: _Job, session: ctypes.c_void_p, stopped: int, rows: int) -> Run:
+    def _result(self, job: _Job, session: ctypes.c_void_p, stopped: int, rows: int, accesses: np.ndarray) -> Run:
         def column(pointer: int | None, count: int) -> np.ndarray:
             if not count:
                 return np.zeros(0, np.uint64)
             return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(ctypes.c_uint64)), (count,)).copy()
 
         taken = column(self._library.model_taken(session), self._library.model_taken_rows(session))
+        if stopped > 1:
+            access = "write to" if job.accesses < job.writes else "read of"
+            told = "error response" if stopped == 2 else f"no answer for {job.patience} clocks"
+            raise SimulationError(f"{self!r}: {access} register {accesses[job.accesses, 0]:#05x}: {told}")
         if stopped:
             raise SimulationError(
                 f"{self!r} stopped: {len(taken)} of {rows} inputs taken, {job.given} outputs given, nothing for "
@@ -296,7 +349,8 @@ class Model:
         given = column(self._library.model_given(session), job.given).view(np.int64)
         status = column(self._library.model_status(session), len(face.status))
         named = {port.name: int(value) for port, value in zip(face.status, status, strict=True)}
-        return Run(outputs, taken.view(np.int64), given, job.clocks, job.simulated, named)
+        read = dict(accesses[job.writes :].tolist())
+        return Run(outputs, taken.view(np.int64), given, job.clocks, job.simulated, named, read)
 
 
 _loaded: dict[object, Model] = {}

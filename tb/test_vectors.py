@@ -35,8 +35,10 @@ BOUND = {
     "shade_rsqrt_rom": 0,
     "shade_rsqrt": 7 / 8,
     "shade_normalize": 5 / 8,
+    "shade_unit": 1.65,  # 1/2, 3/8 of s, and of a vector longer than 2 the rounding to 18 bits
     "shade_clamp": 0,
     "shade_square": 0,
+    "shade_square_fabric": 0,
     "shade_weigh": 1 / 2,
     "shade_dot3": 1 / 2,
     "shade_scale3": 1 / 2,
@@ -53,6 +55,7 @@ BOUND = {
     "shade_versine": 1 / 2,
     "shade_reflect": 1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
     "shade_halfway": 4.25,  # 1/2, and H's 5/8 times the sum of V's components; of unit vectors at most 1.6, see below
+    "shade_lobe": 1.6,  # 1/2, and 16 times what s, y and the registers lack near the peak
     "shade_fresnel": 1,
     "shade_colour": 1 / 2,
     "shade_angles": 1 / 2,
@@ -65,15 +68,8 @@ BOUND = {
 NEEDS_FULL = {
     *(name for name in BOUND if name.startswith(("shade_coef", "shade_horner"))),
     *("shade_fdiff", "shade_rsqrt", "shade_normalize", "shade_dot3", "shade_scale3", "shade_bisect", "shade_midpoint"),
-    *(
-        "shade_node_chain",
-        "shade_criterion",
-        "shade_kappa",
-        "shade_planner",
-        "shade_increment",
-        "shade_versine",
-        "shade_reflect",
-    ),
+    *("shade_node_chain", "shade_criterion", "shade_kappa", "shade_planner", "shade_increment", "shade_unit"),
+    *("shade_versine", "shade_reflect"),
     *("shade_halfway", "shade_fresnel", "shade_colour", "shade_angles", "shade_geometry", "shade_gain"),
     *("shade_light", "shade_light_local"),
 }

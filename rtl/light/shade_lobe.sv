@@ -14,9 +14,10 @@
 //   y = 2 y - z^2, from 1/2 on 1 - z^2
 //
 // Near the peak of the lobe y is small, and so is its error, which the power multiplies by 2^POWER. Roundings to
-// nearest, ties up; within 1.6 ulp of the formula with the k1 and k2 that the registers stand for.
+// nearest, ties up; within 1.6 ulp of the formula with k1 and k2 before they became registers. n = 1 .. 1024; with POWER
+// less than 4 to 96 2^POWER.
 //
-// k1_i, k2_i, xmax_i, shift_i must not change while values are in flight; then their every change is harmless.
+// k1_i, k2_i, xmax_i, shift_i must stay as they are while values are in flight.
 //
 // FOLD = 1: a value a clock; four 18 x 18 multipliers, and for each power beyond 4 one shade_square_fabric.
 //           Latency LATENCY_LOBE = 31 clocks, 6 fewer for each POWER less than 4; ready_o is 1.
@@ -32,13 +33,13 @@ module shade_lobe #(
   input  logic                                      rst_i,
   input  logic                                      valid_i,
   output logic                                      ready_o,
-  input  logic        [  shade_pkg::VERSINE_W-1:0]  x_i,
-  input  logic        [  shade_pkg::LOBE_K1_W-1:0]  k1_i,
-  input  logic signed [  shade_pkg::LOBE_K2_W-1:0]  k2_i,
+  input  logic        [   shade_pkg::VERSINE_W-1:0] x_i,
+  input  logic        [   shade_pkg::LOBE_K1_W-1:0] k1_i,
+  input  logic signed [   shade_pkg::LOBE_K2_W-1:0] k2_i,
   input  logic        [shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
-  input  logic        [  shade_pkg::LOBE_X_F:0]     xmax_i,
+  input  logic        [      shade_pkg::LOBE_X_F:0] xmax_i,
   output logic                                      valid_o,
-  output logic        [shade_pkg::INTENSITY_F:0]    lobe_o
+  output logic        [   shade_pkg::INTENSITY_F:0] lobe_o
 );
   if (POWER < 2 || POWER > 4 || (FOLD != 1 && FOLD != 6)) begin : g_check
     $error("shade_lobe: POWER must be in 2 .. 4 and FOLD 1 or 6");
@@ -81,7 +82,7 @@ module shade_lobe #(
 
   function automatic logic [S_W-1:0] slope(input logic signed [P_W-1:0] p);
     logic signed [SUM_W-1:0] sum;
-    sum = (SUM_W'($signed({1'b0, k1_q})) <<< (SUM_F - K1_F)) - SUM_W'(p);
+    sum   = (SUM_W'($signed({1'b0, k1_q})) <<< (SUM_F - K1_F)) - SUM_W'(p);
     slope = S_W'(sum >>> (SUM_F - S_F));
   endfunction
 
@@ -90,7 +91,7 @@ module shade_lobe #(
     logic negative, above;
     negative = s[S_W-1];
     above    = s[S_W-2];
-    offset = {negative || !(above || s[S_F]), s[S_F-1:0] & {S_F{!negative}} | {S_F{above && !negative}}};
+    offset   = {negative || !(above || s[S_F]), s[S_F-1:0] & {S_F{!negative}} | {S_F{above && !negative}}};
   endfunction
 
   // y = s X = p + X for p = (s - 1) X, to nearest; a dark one is 1
@@ -98,8 +99,8 @@ module shade_lobe #(
   function automatic logic [Y_W-1:0] base(input logic signed [P_W-1:0] p, input logic [X_W-1:0] x, input logic dark);
     logic signed [P_W:0] sum;
     logic [Y_W-1:0] y;
-    sum = (P_W + 1)'(p) + $signed((P_W + 1)'({x, {S_F{1'b0}}}) | (P_W + 1)'(1 << (BASE_F - Y_F - 1)));
-    y   = Y_W'(sum >>> (BASE_F - Y_F));
+    sum  = (P_W + 1)'(p) + $signed((P_W + 1)'({x, {S_F{1'b0}}}) | (P_W + 1)'(1 << (BASE_F - Y_F - 1)));
+    y    = Y_W'(sum >>> (BASE_F - Y_F));
     base = dark ? Y_W'(1) << Y_F : fine ? y >> shade_pkg::LOBE_FINE_F : y;
   endfunction
 
@@ -110,12 +111,12 @@ module shade_lobe #(
     logic one, high;
     one  = |y[Y_W-1:Y_F];
     high = one || y[Y_F-1];
-    low = {(y[Y_F-2-:Z_W-1] ^ {(Z_W - 1) {high}}) & {(Z_W - 1) {!one}}, 1'b1};
+    low  = {(y[Y_F-2-:Z_W-1] ^ {(Z_W - 1) {high}}) & {(Z_W - 1) {!one}}, 1'b1};
   endfunction
 
   function automatic logic [A_W-1:0] minuend(input logic [Y_W-1:0] y);
     logic high;
-    high = |y[Y_W-1:Y_F-1];
+    high    = |y[Y_W-1:Y_F-1];
     minuend = {high, y[Y_F-2:0] & {(Y_F - 1) {!high}}, 1'b0};
   endfunction
 
@@ -124,7 +125,7 @@ module shade_lobe #(
   function automatic logic [A_W-1:0] less(input logic [A_W-1:0] a, input logic [2*Z_W-1:0] q);
     logic [A_W:0] difference;
     difference = {a, 1'b0} - (A_W + 1)'(q >> (DROP - 1));
-    less = A_W'(difference >> 1);
+    less       = A_W'(difference >> 1);
   endfunction
 
   // 1 - y, to nearest
@@ -133,7 +134,7 @@ module shade_lobe #(
   function automatic logic [OUT_W-1:0] result(input logic [A_W-1:0] y);
     logic [A_W-1:0] difference;
     difference = (A_W'(1) << Y_F) + (A_W'(1) << (OUT_DROP - 1)) - y;
-    result = OUT_W'(difference >> OUT_DROP);
+    result     = OUT_W'(difference >> OUT_DROP);
   endfunction
 
   if (FOLD == 1) begin : g_parallel

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from golden import contract as k
+from golden import registers
 from golden.fixed import Int, integers, saturate
 from golden.light import colour, light
 from golden.normal import pixel_normals, unit
 from golden.plan import Nodes, node_walk, planner
 from golden.poly import poly_span
-from golden.registers import after_reset
 
 
 class Drawn(NamedTuple):
@@ -65,7 +65,7 @@ def lane(
     """
     n, g = integers(n, g)
     count, flat, cosine = integers(count, flat, cosine)
-    draw = after_reset() | dict(draw)
+    draw = registers.after_reset() | dict(draw)
     if path_normals and draw["path"] == k.PATH_NORMALS:
         normal, span = pixel_normals(n, g, count, cosine, draw["variant"], draw["threshold"])
         diffuse, specular, flags = light(*normal.T, draw, form, reflect, divide)
@@ -94,7 +94,7 @@ def paint(pixels: ArrayLike, draw: Mapping[str, int]) -> Int:
     [[39322, 32768, 32768]]
     """
     (pixels,) = integers(pixels)
-    draw = after_reset() | dict(draw)
+    draw = registers.after_reset() | dict(draw)
     if not draw["colour"]:
         return np.pad(pixels, ((0, 0), (0, 1)))
     weights = ([draw[f"{name}_{channel}"] for channel in "rgb"] for name in ("ambient", "kd", "ks"))
@@ -113,7 +113,7 @@ def phong(
     [[65535, 0], [65535, 0]]
     """
     normal, span = pixel_normals(n, g, count, 0, k.VARIANT_EXACT, k.METRIC_THRESHOLD)
-    diffuse, specular, _ = light(*normal.T, after_reset() | dict(draw), form, reflect, divide)
+    diffuse, specular, _ = light(*normal.T, registers.after_reset() | dict(draw), form, reflect, divide)
     return saturate(np.stack([diffuse, specular], -1), k.PIXEL_W), span
 
 
@@ -150,3 +150,53 @@ def phong_products(pixels: int, *, reflect: int = 1, divide: int = 1) -> int:
 
 def _light_products(reflect: int, divide: int) -> int:
     return k.PRODUCTS_LIGHT + k.PRODUCTS_REFLECT * reflect + k.PRODUCTS_DIVIDE * divide
+
+
+class RegisterFile:
+    """The registers as a bus sees them (``shade_registers``): ``words`` by name, without STATUS.busy.
+
+    Two lowest bits of an offset do not count. Accesses tell by False that they are answered with an error.
+
+    >>> file = RegisterFile()
+    >>> file.write(0x94, 98304), file.read(0x94), file.write(0, 1), file.read(0), file.read(16)
+    (True, (98304, True), True, (1347635268, True), (0, False))
+    """
+
+    def __init__(self) -> None:
+        self.at = {register.offset: register for register in registers.registers()}
+        self.words = {register.name: register.reset for register in self.at.values()}
+
+    def read(self, offset: int, busy: bool = False) -> tuple[int, bool]:
+        """The word at a byte offset, 0 and an error where there is no register."""
+        register = self.at.get(offset & ~3)
+        if not register:
+            return 0, False
+        return self.words[register.name] | (busy and register.name == "STATUS"), True
+
+    def write(self, offset: int, word: int, strobe: int = 0b1111, busy: bool = False) -> bool:
+        """Write the bytes of a word that ``strobe`` names; an error changes nothing."""
+        register = self.at.get(offset & ~3)
+        if not register or register.access == "ro":
+            return register is not None
+        before = self.words[register.name]
+        chosen = sum(0xFF << 8 * i for i in range(4) if strobe >> i & 1)
+        word = word & chosen | before & ~chosen
+        clears = register.name == "CONTROL" and word >> 31 == 1
+        if busy and not (clears and word ^ before == 1 << 31):
+            return False
+        if clears:
+            self.clear()
+        kept = (field for field in register.fields if field.name != "clear")
+        self.words[register.name] = word & sum((1 << field.width) - 1 << field.lsb for field in kept)
+        return True
+
+    def clear(self) -> None:
+        """What CONTROL.clear does: counters and STATUS become 0."""
+        self.words |= dict.fromkeys(("STATUS", *(register.name for register in registers.GROUPS["Counters"])), 0)
+
+    def count(self, events: int = 0, **increments: int) -> None:
+        """What a clock adds: bits ``events`` of STATUS by the order of ``registers.faults``, counters by name."""
+        for bit, fault in enumerate(registers.faults()):
+            self.words["STATUS"] |= (events >> bit & 1) << fault.lsb
+        for name, increment in increments.items():
+            self.words[name.upper()] = self.words[name.upper()] + increment & 0xFFFFFFFF

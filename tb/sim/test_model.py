@@ -15,7 +15,7 @@ import pytest
 
 import sim
 from golden import contract as k
-from golden import fixed, poly
+from golden import fixed, poly, registers
 from sim import SimulationError, model, verilate
 from sim.errors import UserError
 from sim.sources import ROOT
@@ -88,6 +88,43 @@ module shade_twice (
     end else if (m_axis_out_tvalid && m_axis_out_tready) {full_q, second_q} <= {!second_q, 1'b1};
     if (rst_i) {full_q, second_q, taken_o} <= '0;
   end
+endmodule
+"""
+# two streams side by side: stream 1 gives its value one clock after stream 0, or waits with it
+ABREAST = """
+module shade_abreast (
+  input logic clk_i, input logic rst_i,
+  input logic s_axis_in_tvalid, output logic s_axis_in_tready, input logic [15:0] s_axis_in_tdata,
+  output logic [1:0] m_axis_out_tvalid, input logic [1:0] m_axis_out_tready, output logic [31:0] m_axis_out_tdata
+);
+  assign s_axis_in_tready = m_axis_out_tvalid == 2'b00;
+  always_ff @(posedge clk_i) begin
+    m_axis_out_tvalid <= m_axis_out_tvalid & ~m_axis_out_tready;
+    if (m_axis_out_tvalid == 2'b01 && m_axis_out_tready[0]) m_axis_out_tvalid <= 2'b10;
+    if (s_axis_in_tvalid && s_axis_in_tready) begin
+      m_axis_out_tvalid <= s_axis_in_tdata[0] ? 2'b01 : 2'b11;
+      m_axis_out_tdata  <= {~s_axis_in_tdata, s_axis_in_tdata};
+    end
+    if (rst_i) m_axis_out_tvalid <= 2'b00;
+  end
+endmodule
+"""
+# registers that never answer
+DEAF = """
+module shade_deaf (
+  input logic clk_i, input logic rst_i, input logic x_i, output logic y_o,
+  input logic s_axil_awvalid, output logic s_axil_awready,
+  input logic [11:0] s_axil_awaddr, input logic [2:0] s_axil_awprot,
+  input logic s_axil_wvalid, output logic s_axil_wready, input logic [31:0] s_axil_wdata,
+  input logic [3:0] s_axil_wstrb, output logic s_axil_bvalid, input logic s_axil_bready,
+  output logic [1:0] s_axil_bresp, input logic s_axil_arvalid, output logic s_axil_arready,
+  input logic [11:0] s_axil_araddr, input logic [2:0] s_axil_arprot,
+  output logic s_axil_rvalid, input logic s_axil_rready,
+  output logic [31:0] s_axil_rdata, output logic [1:0] s_axil_rresp
+);
+  assign {s_axil_awready, s_axil_wready, s_axil_bvalid, s_axil_bresp} = '0;
+  assign {s_axil_arready, s_axil_rvalid, s_axil_rdata, s_axil_rresp} = '0;
+  always_ff @(posedge clk_i) y_o <= x_i && !rst_i;
 endmodule
 """
 
@@ -207,6 +244,87 @@ def test_more_outputs_than_inputs(toy: Callable) -> None:
         assert np.array_equal(run.m_axis_out_tlast, np.tile([0, 1], 100))
         assert (len(run.taken), len(run.given)) == (100, 200)
         assert run.status == {"taken_o": 100}
+
+
+@pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.5, 0.5)])
+def test_streams_side_by_side(toy: Callable, in_gap: float, out_stall: float) -> None:
+    """A row in every clock in which one of them gives something; tvalid tells which."""
+    toy("shade_abreast", ABREAST)
+    run = sim.load("shade_abreast").run(s_axis_in_tdata=np.arange(100), in_gap=in_gap, out_stall=out_stall)
+    valid, data = run.m_axis_out_tvalid, run.m_axis_out_tdata
+    assert valid.tolist() == [3, 1, 2] * 50
+    assert (data[valid & 1 > 0] & 0xFFFF).tolist() == list(range(100))
+    assert (data[valid & 2 > 0] >> 16).tolist() == [0xFFFF - x for x in range(100)]
+
+
+# ---- registers ---------------------------------------------------------------------------------------------------
+
+IDLE = dict.fromkeys(
+    ("busy_i", "events_i", "pixels_i", "spans_i", "stalls_i", "evaluations_i", "errors_i"), 0
+)  # inputs of shade_registers
+
+
+def test_registers() -> None:
+    """Written before the first row, read after the last one, in the order given; a structure is a wide port."""
+    file = sim.load("shade_registers")
+    words = registers.pack({"gain": 98304, "gain_exp": -1, "ks_b": 5})
+    run = file.run(**IDLE | {"pixels_i": [3, 1]}, writes=words, reads=[0x20, *words, 0], drain=0, latency=1)
+    assert list(run.registers) == [0x20, *words, 0]
+    assert run.registers[0x20] >= 4
+    assert {offset: run.registers[offset] for offset in words} == words
+    assert run.registers[0] == registers.ID
+    assert run.draw_o[0].tolist() == registers.pack_draw({"gain": 98304, "gain_exp": -1, "ks_b": 5}).tolist()
+    assert run.taken.tolist() == [0, 1]
+    assert run.simulated > 5 * len(words) + run.clocks
+    assert file.run(**IDLE).registers == {}
+
+
+def test_an_error_response() -> None:
+    """It is told, with its register; what comes after it is not done."""
+    file = sim.load("shade_registers")
+    told = r"shade_registers\(\): {} register 0x010: error response"
+    with pytest.raises(SimulationError, match=told.format("write to")):
+        file.run(**IDLE, writes={0x40: 1, 0x10: 2}, reads=[0x10])
+    with pytest.raises(SimulationError, match=told.format("read of")):
+        file.run(**IDLE, writes={0x40: 1}, reads=[0, 0x10])
+    with pytest.raises(SimulationError, match="write to register 0x040: error"):
+        file.run(**IDLE | {"busy_i": 1}, writes={0x40: 1})
+
+
+def test_no_answer(toy: Callable) -> None:
+    toy("shade_deaf", DEAF)
+    deaf = sim.load("shade_deaf")
+    assert deaf.run(x_i=1, latency=1).y_o.tolist() == [1]
+    with pytest.raises(SimulationError, match=r"shade_deaf\(\): write to register 0x004: no answer for 100 clocks"):
+        deaf.run(x_i=1, writes={4: 0}, patience=100)
+    with pytest.raises(SimulationError, match="read of register 0x008: no answer"):
+        deaf.run(x_i=1, reads=[8], patience=100)
+
+
+@pytest.mark.parametrize(
+    ("access", "told"),
+    [
+        ({"writes": {0x40: 1 << 32}}, "word 0x100000000 at offset 0x40, allowed 0 .. 0xffffffff at 0 .. 0xfff"),
+        ({"writes": {0x40: -1}}, "word -0x1 at offset 0x40"),
+        ({"writes": {0x1000: 1}}, "word 0x1 at offset 0x1000"),
+        ({"reads": [-4]}, "word 0x0 at offset -0x4"),
+    ],
+)
+def test_accesses_out_of_range(access: dict, told: str) -> None:
+    refused(lambda: sim.load("shade_registers").run(**IDLE, **access), f"shade_registers: {told}")
+
+
+@pytest.mark.parametrize("access", [{"writes": {0: 1}}, {"reads": [0]}])
+def test_no_registers(third: sim.Model, access: dict) -> None:
+    refused(
+        lambda: third.run(x_i=1, **access), "shade_third: writes or reads given, but it has no registers on s_axil_*"
+    )
+
+
+def test_again_with_registers() -> None:
+    """The command to paste writes them too."""
+    file = sim.load("shade_registers")
+    assert file.again(busy_i=0, writes={0x40: 65536}).endswith("run(busy_i=0x0, writes={0x40: 0x10000}).outputs)'")
 
 
 # ---- clocks ------------------------------------------------------------------------------------------------------

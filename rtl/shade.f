@@ -54,6 +54,7 @@ rtl/light/shade_angles.sv
 rtl/light/shade_reflectance.sv
 rtl/light/shade_light.sv
 rtl/light/shade_light_local.sv
+rtl/light/shade_light_folded.sv
 rtl/core/shade_collect.sv
 rtl/core/shade_paint.sv
 rtl/core/shade_phong.sv

@@ -182,6 +182,7 @@ package shade_pkg;
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
+  localparam int LATENCY_UNIT_FOLDED = 30;  // five turns of the multiplier
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
   localparam int LATENCY_HALF = 5;  // the choice of a straight line
@@ -205,23 +206,25 @@ package shade_pkg;
   localparam int LATENCY_LOBE_FOLDED = 33;  // POWER = 4: the shifted x, six turns of the multiplier
   localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
   localparam int LATENCY_GAIN = 9;  // products, two shifter levels, rounding
-  localparam int LATENCY_FACTOR = 31;  // the lobe, and what it is multiplied by
+  localparam int LATENCY_FACTOR = 32;  // the lobe or what stands for it; what it is multiplied by
   localparam int LATENCY_ANGLES = 17;  // R, choice of R, V or N, H
-  localparam int LATENCY_LIGHT = 57;
+  localparam int LATENCY_LIGHT = 58;
   localparam int LATENCY_LIGHT_FOLDED = 56;  // the versine's six products, the gain's three
-  localparam int LATENCY_LIGHT_LOCAL = 72;
+  localparam int LATENCY_LIGHT_LOCAL = 73;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
+  localparam int LATENCY_KAPPA_FOLDED = 20;  // products one after the other
   localparam int LATENCY_PLANNER = 28;  // see shade_planner
+  localparam int LATENCY_PLANNER_FOLDED = 34;
   localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
-  localparam int LATENCY_RECORD = 81;  // normal to pixel
-  localparam int LATENCY_LANE = 133;
-  localparam int LATENCY_LANE_NORMALS = 124;  // the path of normals
+  localparam int LATENCY_RECORD = 82;  // normal to pixel
+  localparam int LATENCY_LANE = 134;
+  localparam int LATENCY_LANE_NORMALS = 125;  // the path of normals
   localparam int LATENCY_PAINT = 8;
-  localparam int LATENCY_PHONG = 82;  // span, ..., clamp, FIFO
+  localparam int LATENCY_PHONG = 83;  // span, ..., clamp, FIFO
 
   // products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric
   localparam int PRODUCTS_KAPPA = 4;  // for each new increment

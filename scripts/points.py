@@ -43,6 +43,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_span_walk": grid(LOG2_MAX=[2, 12], CREDIT_LOG2=[1, 6]),
     "shade_dot3": grid(OUT_F=[17, 31]),
     "shade_scale3": [{"FOLD": 3}],
+    "shade_unit": [{"FOLD": 6}],
     "shade_half": [{"FORM": 0}],
     "shade_invc": grid(FORM=[0], DEGREE=[1, 2]),
     "shade_bisect": [{"WAIT": 2}],
@@ -57,7 +58,10 @@ POINTS: dict[str, list[Point]] = {
     "shade_light_local": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
     "shade_paint": [{"FIFO_LOG2": 4}],
     "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}, {"FORM": 0}],
-    "shade_node_walk": [{"CREDIT_LOG2": 1}],
+    "shade_kappa": [{"FOLD": 6}],
+    "shade_planner": [{"FOLD": 6}],
+    "shade_light_folded": [{"FORM": 0}],
+    "shade_node_walk": [{"CREDIT_LOG2": 1}, {"PACE": 6}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
 }
 
@@ -86,6 +90,7 @@ REFUSED: dict[str, list[Point]] = {
     "shade_span_walk": [{"LOG2_MAX": 1}, {"LOG2_MAX": 13}, {"CREDIT_LOG2": 0}],
     "shade_dot3": grid(OUT_F=[0, 32]),
     "shade_scale3": [{"FOLD": 2}],
+    "shade_unit": [{"FOLD": 3}],
     "shade_half": [{"FORM": 2}],
     "shade_invc": [{"FORM": 2}, {"DEGREE": 1}, {"FORM": 0, "DEGREE": 3}],
     "shade_bisect": [{"WAIT": 0}],
@@ -94,7 +99,9 @@ REFUSED: dict[str, list[Point]] = {
     "shade_lobe": [{"POWER": 1}, {"POWER": 5}, {"FOLD": 2}],
     "shade_angles": [{"REFLECT": 2}, {"LOCAL": -1}],
     "shade_reflectance": [{"DIVIDE": 2}],
-    "shade_node_walk": [{"CREDIT_LOG2": 0}],
+    "shade_kappa": [{"FOLD": 2}],
+    "shade_planner": [{"FOLD": 2}],
+    "shade_node_walk": [{"CREDIT_LOG2": 0}, {"PACE": 9}],
     "shade_poly_span": [{"EVALUATOR": 2}],
 }
 
@@ -104,6 +111,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_coef": [{"FORM": 0}, {"NODES": 1}],
     "shade_poly_span": [{"EVALUATOR": 1}],
     "shade_scale3": [{"FOLD": 3}],
+    "shade_unit": [{"FOLD": 6}],
     "shade_versine": [{"FORM": 0}],
     "shade_lobe": [{"FOLD": 6}, {"POWER": 3}, {"POWER": 2}],
     "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],

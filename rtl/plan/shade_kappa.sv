@@ -12,13 +12,18 @@
 //   E = |d|^2           exact, 36 bits, of which the first 17 are kept
 //   kappa = 2 E n 2^-r  r = 9 + 2 s - exponent - 2 k, cut; r < 0: does not fit
 //
-// Within 2^-12 of the exact value, relative, and 1 ulp. Four 18 x 18 multipliers.
-// Latency LATENCY_KAPPA = 14 clocks, one arc a clock. Example: g = (1/128, 0, 0), k = 5, n = 32 -> 32 (1/4)^2 / 2 = 1.
+// Within 2^-12 of the exact value, relative, and 1 ulp.
+// FOLD = 1: four 18 x 18 multipliers, one arc a clock, latency LATENCY_KAPPA = 14 clocks; ready_o is 1.
+// FOLD = 6: one multiplier, the same bits; ready_o is 1 in every sixth clock, latency LATENCY_KAPPA_FOLDED = 20 clocks.
+// Example: g = (1/128, 0, 0), k = 5, n = 32 -> 32 (1/4)^2 / 2 = 1.
 // Source: P1 chooses the degree by hand, region by region; kappa alone decides the error of interpolating cos^n.
-module shade_kappa (
+module shade_kappa #(
+  parameter int FOLD = 1
+) (
   input  logic                                       clk_i,
   input  logic                                       rst_i,
   input  logic                                       valid_i,
+  output logic                                       ready_o,
   input  logic signed [       shade_pkg::STEP_W-1:0] gx_i,
   input  logic signed [       shade_pkg::STEP_W-1:0] gy_i,
   input  logic signed [       shade_pkg::STEP_W-1:0] gz_i,
@@ -28,9 +33,14 @@ module shade_kappa (
   output logic                                       valid_o,
   output logic        [      shade_pkg::KAPPA_W-1:0] kappa_o
 );
+  if (FOLD != 1 && FOLD != 6) begin : g_check
+    $error("shade_kappa: FOLD must be 1 or 6");
+  end
+
   localparam int W = shade_pkg::STEP_W;
   localparam int D_W = 18;
   localparam int MUL = shade_pkg::LATENCY_MUL;
+  localparam int LATENCY = FOLD == 1 ? shade_pkg::LATENCY_KAPPA : shade_pkg::LATENCY_KAPPA_FOLDED;
 
   // ---- s, in steps of 8, 2 and 1: the first bit that differs from its component's sign goes to the front -----------
   localparam int W2 = D_W + 7;  // of g: what the next steps can still bring to the front
@@ -63,14 +73,13 @@ module shade_kappa (
 
   localparam int E_W = 2 * D_W;  // at most 3 * 2^34
   logic [3*W-1:0] g_q1;
-  logic [3*E_W-1:0] squares_q6;
+  logic [3*D_W-1:0] d;
   always_ff @(posedge clk_i) g_q1 <= {gz_i, gy_i, gx_i};
   for (genvar c = 0; c < 3; c++) begin : g_component
     logic [W-1:0] eighth;
     logic [W2-1:0] g_q2, half;
     logic [W3-1:0] g_q3;
     logic signed [D_W-1:0] d_q4;
-    logic signed [E_W-1:0] square_q6;
     assign eighth = g_q1[c*W+:W] << {eights, 3'b000};
     assign half   = g_q2 << {twos, 1'b0};
     always_ff @(posedge clk_i) begin
@@ -78,24 +87,60 @@ module shade_kappa (
       g_q3 <= half[W2-1-:W3];
       d_q4 <= front_q3 ? g_q3[W3-1-:D_W] : g_q3[D_W-1:0];
     end
-    shade_mul #(.A_W(D_W), .B_W(D_W)) u_square (.clk_i, .a_i(d_q4), .b_i(d_q4), .p_o(square_q6));
-    assign squares_q6[c*E_W+:E_W] = square_q6;
+    assign d[c*D_W+:D_W] = d_q4;
     logic unused_bits;
     assign unused_bits = &{1'b0, eighth, half};
   end
 
   // ---- E, and its product with the mantissa ----------------------------------------------------------------------
   localparam int KEPT_W = 17;
-  localparam int P_W = KEPT_W + shade_pkg::SHARPNESS_F + 2;  // of twice the product
-  logic [E_W-1:0] two_q7, third_q7, e_q8, product_q10;
-  always_ff @(posedge clk_i) begin
-    two_q7   <= squares_q6[0+:E_W] + squares_q6[E_W+:E_W];
-    third_q7 <= squares_q6[2*E_W+:E_W];
-    e_q8     <= two_q7 + third_q7;
+  localparam int M_W = shade_pkg::SHARPNESS_F + 2;
+  localparam int P_W = KEPT_W + M_W;  // of twice the product
+  logic [E_W-1:0] e, product;
+  if (FOLD == 1) begin : g_parallel
+    logic [3*E_W-1:0] squares_q6;
+    logic [E_W-1:0] two_q7, third_q7, e_q8;
+    assign ready_o = 1'b1;
+    for (genvar c = 0; c < 3; c++) begin : g_square
+      shade_mul #(.A_W(D_W), .B_W(D_W)) u_square (
+        .clk_i, .a_i(d[c*D_W+:D_W]), .b_i(d[c*D_W+:D_W]), .p_o(squares_q6[c*E_W+:E_W])
+      );
+    end
+    always_ff @(posedge clk_i) begin
+      two_q7   <= squares_q6[0+:E_W] + squares_q6[E_W+:E_W];
+      third_q7 <= squares_q6[2*E_W+:E_W];
+      e_q8     <= two_q7 + third_q7;
+    end
+    assign e = e_q8;
+    shade_mul #(.A_W(KEPT_W + 1), .B_W(M_W)) u_product (
+      .clk_i, .a_i({1'b0, e[E_W-1-:KEPT_W]}), .b_i({1'b0, mantissa_i}), .p_o(product)
+    );
+  end else begin : g_folded
+    // factors of clock c stand at the multiplier in c + 1, their product comes in c + 3; d is there in clock 4
+    logic [2:0] phase_q;
+    logic signed [D_W-1:0] y_q, z_q, a_q, b_q;
+    logic [E_W-1:0] e_q;
+    assign ready_o = phase_q == 3'd0;
+    always_ff @(posedge clk_i) begin
+      phase_q <= phase_q == 3'd5 ? 3'd0 : phase_q + 3'd1;
+      if (rst_i) phase_q <= 3'd0;
+    end
+    always_ff @(posedge clk_i) begin
+      case (phase_q)
+        3'd4: begin
+          {y_q, z_q} <= {d[D_W+:D_W], d[2*D_W+:D_W]};
+          {a_q, b_q} <= {d[0+:D_W], d[0+:D_W]};
+        end
+        3'd5:    {a_q, b_q} <= {y_q, y_q};
+        3'd0:    {a_q, b_q} <= {z_q, z_q};
+        default: {a_q, b_q} <= {1'b0, e_q[E_W-1-:KEPT_W], 1'b0, mantissa_i};  // E stays until the next one begins
+      endcase
+      if (phase_q == 3'd1) e_q <= product;
+      else if (phase_q == 3'd2 || phase_q == 3'd3) e_q <= e_q + product;
+    end
+    assign e = e_q;
+    shade_mul #(.A_W(D_W), .B_W(D_W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
   end
-  shade_mul #(.A_W(KEPT_W + 1), .B_W(shade_pkg::SHARPNESS_F + 2)) u_product (
-    .clk_i, .a_i({1'b0, e_q8[E_W-1-:KEPT_W]}), .b_i({1'b0, mantissa_i}), .p_o(product_q10)
-  );
 
   // ---- shifted by r, in steps of 16, 4 and 1 -----------------------------------------------------------------------
   localparam int R_W = 8;  // -32 .. 71
@@ -111,16 +156,16 @@ module shade_kappa (
 
     over_q11 <= r_q10[R_W-1];
     r_q11    <= r_q10[3:0];
-    p_q11    <= r_q10[R_W-2] ? '0 : {product_q10[P_W-2:0], 1'b0} >> {r_q10[5:4], 4'b0000};
+    p_q11    <= r_q10[R_W-2] ? '0 : {product[P_W-2:0], 1'b0} >> {r_q10[5:4], 4'b0000};
     r_q12    <= r_q11[1:0];
     p_q12    <= p_q11 >> {r_q11[3:2], 2'b00};
     p_q13    <= p_q12 >> r_q12;
     kappa_o  <= p_q13[shade_pkg::KAPPA_W-1:0] | {shade_pkg::KAPPA_W{over_q13 || |p_q13[P_W-1:shade_pkg::KAPPA_W]}};
   end
-  shade_delay #(.WIDTH(R_W), .DEPTH(2 * MUL + 1)) u_r (.clk_i, .d_i(r_q5), .q_o(r_q10));
+  shade_delay #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATENCY - shade_pkg::LATENCY_KAPPA)) u_r (.clk_i, .d_i(r_q5), .q_o(r_q10));
   shade_delay #(.WIDTH(1), .DEPTH(2)) u_over (.clk_i, .d_i(over_q11), .q_o(over_q13));
 
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_KAPPA)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+  shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i(valid_i && ready_o), .valid_o);
   logic unused_product;
-  assign unused_product = &{1'b0, product_q10, e_q8};
+  assign unused_product = &{1'b0, product, e};
 endmodule

@@ -14,7 +14,8 @@
 //   slot_o             number of the node in its record; first_o, last_o frame the nodes of a record that come
 //   count_o, degree_o  of the record; more_o: the span goes on behind it; flat_o, tag_o: the span's
 //
-// Latency from a span taken to its first node LATENCY_NODE_WALK = 3 clocks, one node in PACE clocks, for what is behind.
+// Latency from a span taken to its first node LATENCY_NODE_WALK = 3 clocks, one node a clock. PACE > 1: a node in PACE clocks,
+// whenever their number since reset is a multiple of it: for folded units.
 // Example: 5 pixels, one record of degree 3: nodes at pixels 0, 1, 2, 4 in slots 0, 1, 2, 3.
 // Source: P4 (one increment for all lines of a triangle), P1, section IV (nodes).
 module shade_node_walk #(
@@ -128,12 +129,11 @@ module shade_node_walk #(
   if (PACE == 1) begin : g_every_clock
     assign on_pace = 1'b1;
   end else begin : g_pace
-    logic [2:0] wait_q;
-    assign on_pace = wait_q == '0;
+    logic [2:0] phase_q;  // counts as in the folded units behind, which take a node in phase 0
+    assign on_pace = phase_q == 3'(PACE - 1);
     always_ff @(posedge clk_i) begin
-      if (issue) wait_q <= 3'(PACE - 1);
-      else if (!on_pace) wait_q <= wait_q - 3'd1;
-      if (rst_i) wait_q <= '0;
+      phase_q <= on_pace ? '0 : phase_q + 3'd1;
+      if (rst_i) phase_q <= '0;
     end
   end
 

@@ -14,14 +14,18 @@
 //
 // Where kappa(2) > t3, all records are direct (degree 0, each pixel lit), of 4 pixels. The last record is direct if it has
 // no more pixels than its polynomial has nodes; in the paper's form, up to 4. The others share nodes with their neighbours.
-// The halvings of kappa until it is at most t3 are found by steps of 8, 4, 2, 1. Four 18 x 18 multipliers in shade_kappa.
-// Latency LATENCY_PLANNER = 28 clocks, one span a clock.
+// The halvings of kappa until it is at most t3 are found by steps of 8, 4, 2, 1. Multipliers: those of shade_kappa.
+// FOLD = 1: one span a clock, latency LATENCY_PLANNER = 28 clocks; ready_o is 1. FOLD = 6: one span in six clocks, when
+// ready_o is 1, latency LATENCY_PLANNER_FOLDED = 34 clocks.
 // Example: 33 pixels, g = (1/128, 0, 0), n = 128: kappa = 4 -> 1 record of 16 pixels, one of 17, both of degree 3.
 // Source: P1, section V (degrees by region), by a measure instead of by hand.
-module shade_planner (
+module shade_planner #(
+  parameter int FOLD = 1
+) (
   input  logic                                         clk_i,
   input  logic                                         rst_i,
   input  logic                                         valid_i,
+  output logic                                         ready_o,
   input  logic signed [         shade_pkg::STEP_W-1:0] gx_i,
   input  logic signed [         shade_pkg::STEP_W-1:0] gy_i,
   input  logic signed [         shade_pkg::STEP_W-1:0] gz_i,
@@ -63,14 +67,15 @@ module shade_planner (
     whole_q2  <= bits(steps_q1);
     kappa_q15 <= flat_q14 || fixed_degree_i != '0 ? '0 : kappa_q14;
   end
-  shade_kappa u_kappa (
-    .clk_i, .rst_i, .valid_i(1'b0), .gx_i, .gy_i, .gz_i, .log2_i(whole_q2), .mantissa_i, .exponent_i,
+  localparam int WAIT = FOLD == 1 ? 0 : shade_pkg::LATENCY_KAPPA_FOLDED - shade_pkg::LATENCY_KAPPA;
+  shade_kappa #(.FOLD(FOLD)) u_kappa (
+    .clk_i, .rst_i, .valid_i(1'b0), .ready_o, .gx_i, .gy_i, .gz_i, .log2_i(whole_q2), .mantissa_i, .exponent_i,
     .valid_o(), .kappa_o(kappa_q14)
   );
-  shade_delay #(.WIDTH(COUNT_W), .DEPTH(20)) u_count (.clk_i, .d_i(count_i), .q_o(count_q20));
+  shade_delay #(.WIDTH(COUNT_W), .DEPTH(20 + WAIT)) u_count (.clk_i, .d_i(count_i), .q_o(count_q20));
   shade_delay #(.WIDTH(COUNT_W), .DEPTH(2)) u_count2 (.clk_i, .d_i(count_q20), .q_o(count_q22));
-  shade_delay #(.WIDTH(LOG2_W), .DEPTH(17)) u_whole (.clk_i, .d_i(whole_q2), .q_o(whole_q19));
-  shade_delay #(.WIDTH(1), .DEPTH(14)) u_flat (.clk_i, .d_i(flat_i), .q_o(flat_q14));
+  shade_delay #(.WIDTH(LOG2_W), .DEPTH(17 + WAIT)) u_whole (.clk_i, .d_i(whole_q2), .q_o(whole_q19));
+  shade_delay #(.WIDTH(1), .DEPTH(14 + WAIT)) u_flat (.clk_i, .d_i(flat_i), .q_o(flat_q14));
   shade_delay #(.WIDTH(1), .DEPTH(13)) u_flat2 (.clk_i, .d_i(flat_q14), .q_o(flat_q27));
 
   // ---- halvings until kappa <= t3: 8, 4, 2, 1 more, where one less than these is not enough --------------------------
@@ -163,5 +168,7 @@ module shade_planner (
     .clk_i, .d_i({main_q23, log2_q23, last_count_q23, last_log2_q23}), .q_o({main_o, log2_o, last_count_o, last_log2_o})
   );
   shade_delay #(.WIDTH(DEGREE_W), .DEPTH(7)) u_degree (.clk_i, .d_i(degree_q21), .q_o(degree_o));
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_PLANNER)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_PLANNER + WAIT)) u_valid (
+    .clk_i, .rst_i, .valid_i(valid_i && ready_o), .valid_o
+  );
 endmodule

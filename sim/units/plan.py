@@ -137,9 +137,11 @@ def _planner(form: str) -> Iterator[Case]:
         )  # fmt: skip
         return {f"{name}_o": value for name, value in planned._asdict().items()}
 
-    yield Case(
-        "shade_planner", form, {}, golden, golden, golden, vectors, None, k.LATENCY_PLANNER, unit_f=0, chunk=1 << 16
-    )
+    for fold, latency in ((1, k.LATENCY_PLANNER), (6, k.LATENCY_PLANNER_FOLDED)):
+        yield Case(
+            "shade_planner", form, {"FOLD": fold}, golden, golden, golden, vectors, None, latency, fold, unit_f=0,
+            chunk=1 << 16,
+        )  # fmt: skip
 
 
 def cases() -> Iterator[Case]:

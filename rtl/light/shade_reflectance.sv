@@ -58,7 +58,7 @@ module shade_reflectance #(
   localparam int MODEL_W = shade_pkg::MODEL_W;
   localparam int GEOMETRY = shade_pkg::LATENCY_GEOMETRY;
   localparam int LOBE = shade_pkg::LATENCY_LOBE;
-  localparam int FACTOR = shade_pkg::LATENCY_FACTOR;  // the longer of both
+  localparam int FACTOR = shade_pkg::LATENCY_FACTOR;  // the longer of both, a lobe chosen
   localparam int GAIN = shade_pkg::LATENCY_GAIN;
   localparam int FROM_H = 1 + shade_pkg::LATENCY_VERSINE;
   localparam logic [C_W-1:0] ONE = C_W'(1) << (C_W - 1);
@@ -91,12 +91,16 @@ module shade_reflectance #(
   logic [C_W-1:0] lobe, lobe_late, shape, num, fresnel;
   logic signed [shade_pkg::FACTOR_F-1:0] w;
   logic signed [E_W-1:0] e;
-  logic zero, lost_late;
+  logic zero, lost_late, lost_q;
   shade_lobe u_lobe (
     .clk_i, .rst_i, .valid_i(1'b0), .k1_i, .k2_i, .shift_i, .xmax_i, .x_i(x), .ready_o(), .valid_o(), .lobe_o(lobe)
   );
-  shade_delay #(.WIDTH(C_W), .DEPTH(FACTOR - LOBE)) u_wait_lobe (.clk_i, .d_i(lobe), .q_o(lobe_late));
-  shade_delay #(.WIDTH(1), .DEPTH(FACTOR)) u_lost (.clk_i, .d_i(lost), .q_o(lost_late));
+  shade_delay #(.WIDTH(C_W), .DEPTH(FACTOR - 1 - LOBE)) u_wait_lobe (.clk_i, .d_i(lobe), .q_o(lobe_late));
+  shade_delay #(.WIDTH(1), .DEPTH(FACTOR - 1)) u_lost (.clk_i, .d_i(lost), .q_o(lost_late));
+  always_ff @(posedge clk_i) begin
+    shape  <= lost_late ? '0 : schlick ? ONE : lobe_late;
+    lost_q <= lost_late;
+  end
   if (DIVIDE != 0) begin : g_divide
     localparam int WIDTH = C_W + shade_pkg::FACTOR_F + E_W + 1;
     logic [WIDTH-1:0] factor;
@@ -117,7 +121,6 @@ module shade_reflectance #(
 
   // ---- specular light, and what has waited for it ----------------------------------------------------------------
   logic specular_saturated;
-  assign shape = lost_late ? '0 : schlick ? ONE : lobe_late;
   shade_delay #(
     .WIDTH(C_W), .DEPTH(LOCAL != 0 ? FROM_H + FACTOR - shade_pkg::LATENCY_FRESNEL : 0)
   ) u_fresnel (.clk_i, .d_i(fresnel_i), .q_o(fresnel));
@@ -130,7 +133,7 @@ module shade_reflectance #(
   shade_delay #(.WIDTH(W + 2), .DEPTH(FACTOR + GAIN)) u_diffuse (
     .clk_i, .d_i({outside, saturated, diffuse}), .q_o({zero_range[0], diffuse_saturated, diffuse_o})
   );
-  shade_delay #(.WIDTH(1), .DEPTH(GAIN)) u_zero (.clk_i, .d_i(zero || lost_late), .q_o(zero_range[1]));
+  shade_delay #(.WIDTH(1), .DEPTH(GAIN)) u_zero (.clk_i, .d_i(zero || lost_q), .q_o(zero_range[1]));
   always_comb begin
     flags_o = '0;
     flags_o[shade_pkg::LIGHT_MODEL] = refused;

@@ -100,6 +100,37 @@ def _normalize(form: str) -> Iterator[Case]:
     )  # fmt: skip
 
 
+def _unit(form: str) -> Iterator[Case]:
+    """Interpolated normals, most of length 1/8 to 4; short ones, which stay too short, and bypassed ones."""
+    if form != "refined":
+        return
+    vector = {f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"}
+    ports = ("x_o", "y_o", "z_o", "zero_o", "short_o")
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        length = np.ldexp(1 + rng.random(rows), rng.integers(k.NODE_F - 3, k.NODE_F + 2, rows))
+        usual = np.rint(unit_vectors(rng, rows) * length / ONE).clip(*vector["x_i"]).astype(np.int64)
+        other = shortened(mixed(vector, ONE // 2, -ONE // 2), k.INTENSITY_W)(rng, rows)
+        chosen = rng.random(rows) < 0.75
+        mixture = {name: np.where(chosen, v, other[name]) for name, v in zip(vector, usual, strict=True)}
+        return mixture | {"bypass_i": (rng.random(rows) < 0.1).astype(np.int64)}
+
+    def golden(i: Arrays) -> Arrays:
+        return dict(zip(ports, normal.unit(*i.values()), strict=True))
+
+    def exact(i: Arrays) -> Arrays:
+        """v / |v|; a short one by 8 times the mantissa of 1 / |v|."""
+        v = np.stack([i[name] for name in vector]).astype(Real)
+        mantissa, exponent = np.frexp(np.sqrt((v**2).sum(axis=0)))
+        root = 1 / np.where(mantissa == 0, 1, mantissa)
+        n = v * root * np.ldexp(Real(ONE), -np.maximum(exponent, k.NODE_F - 2))
+        n = np.where(i["bypass_i"], (2 * v).clip(*vector["x_i"]), n)
+        return golden(i) | dict(zip(ports, n, strict=False))
+
+    for fold, latency in ((1, k.LATENCY_UNIT), (6, k.LATENCY_UNIT_FOLDED)):
+        yield Case("shade_unit", form, {"FOLD": fold}, golden, exact, exact, vectors, None, latency, fold)
+
+
 def _vectors(form: str) -> Iterator[Case]:
     """Dot product, vector times number, and the scaled sum."""
     if form != "refined":
@@ -301,4 +332,4 @@ def _increment(form: str) -> Iterator[Case]:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/normal`` but whole lines, which are checked by :func:`sim.units.check_pixel_normals`."""
-    return in_forms(_normalize, _vectors, _cosines, _nodes, _metric, _increment)
+    return in_forms(_normalize, _unit, _vectors, _cosines, _nodes, _metric, _increment)

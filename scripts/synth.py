@@ -38,7 +38,7 @@ from scripts import tools
 from scripts.points import VARIANTS
 from scripts.report import save
 from sim.errors import UserError
-from sim.sources import BUILD, Point, label, modules, sources, yardsticks
+from sim.sources import BUILD, Point, label, modules, yardsticks
 from sim.verilate import reached
 
 OUT = BUILD / "synth.json"
@@ -126,15 +126,13 @@ class Design:
 
 def designs(names: list[str] | None = None) -> list[Design]:
     """Every design, or those of the named modules; UserError for a name that is none."""
-    listed = [(module, sources()) for module in modules()]
-    listed += [(module, reached(module)) for module in yardsticks()]
-    known = [module for module, _ in listed]
+    known = [*modules(), *yardsticks()]
     for name in names or []:
         if name not in known:
             raise UserError(f"{name}: no such module, allowed {', '.join(known)}")
     return [
-        Design(module, point, files)
-        for module, files in listed
+        Design(module, point, reached(module))
+        for module in known
         if not names or module in names
         for point in [{}, *VARIANTS.get(module, [])]
     ]

@@ -100,7 +100,7 @@ module shade_light_folded #(
   logic [shade_pkg::VERSINE_W-1:0] x, x_q;
   logic x_range, x_range_q;
   assign minus = !REFINED && (phase_q == 3'd0 || phase_q == 3'd1 || phase_q == 3'd2);
-  assign term  = minus ? -SUM_W'(p) : SUM_W'(p);
+  assign term  = minus ? -(SUM_W'(p)) : SUM_W'(p);
   assign base  = phase_q == 3'd3 ? HALF_NL : phase_q == 3'd0 ? FIRST_X : sum_q;
   shade_clamp #(.WIDTH(X_W), .F(shade_pkg::VERSINE_F + 1)) u_clamp (.x_i(far_q), .y_o(x), .clamped_o(x_range));
   always_ff @(posedge clk_i) begin

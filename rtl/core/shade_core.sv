@@ -1,19 +1,21 @@
 // shade_core: the shading core: spans of interpolated normals in, shaded pixels out, settings and counters on AXI4-Lite.
 //
 //                    ┌─▶ shade_lane 0 ─▶ (shade_paint) ─▶ m_axis_pixel 0
-//   s_axis_span ─ deal ─▶ shade_lane 1 ─▶ (shade_paint) ─▶ m_axis_pixel 1 ...      span i goes to lane i mod LANES
+//   s_axis_span ─ deal ─▶ shade_lane 1 ─▶ (shade_paint) ─▶ m_axis_pixel 1 ...      good span i goes to lane i mod LANES
 //                            ▲
 //   s_axil ─▶ shade_registers
 //
 //   s_axis_span   one beat a packet (tlast = 1, all of tkeep): LINE packet, see rtl/README.md
 //   m_axis_pixel  LANES AXI4-Streams side by side, slice i of every port is stream i: tdata {specular, diffuse} U0.16,
 //                 COLOUR = 1: {blue, green, red} or {0, specular, diffuse} by CONTROL.colour; tuser = tag; tlast = span's last
-//   s_axil        AXI4-Lite, see docs/registers.md; settings can be written while no span is inside
+//   s_axil        AXI4-Lite, see docs/registers.md; settings can be written while no span is inside, and none enters
+//                 while they change. CONTROL.clear deals the next span to lane 0
 //
 // A faulty span (0 or more than 4096 pixels, a packet cut short or too long) is dropped: it sets a bit of STATUS, counts in
 // ERRORS and costs a clock a beat; the next span is unharmed. Without faults every span gives its pixels in order.
 // EVALUATOR: EVALUATOR_FDIFF (no multiplier at a pixel) or EVALUATOR_HORNER. FORM: FORM_REFINED or FORM_PAPER (of the
-// coefficients, the third and the versine). REFLECT = 0, DIVIDE = 0, PATH_NORMALS = 0 leave models and a path out.
+// coefficients, the third and the versine). REFLECT = 0, DIVIDE = 0, PATH_NORMALS = 0 leave models and a path out;
+// FOLD = 6 then shares multipliers, see shade_lane.
 // No combinational path from an input to an output port. One pixel a clock and lane where light keeps up: at most one
 // node a clock and lane. Latency of a first pixel: LATENCY_LANE, COLOUR = 1: LATENCY_PAINT more. Source: P1 to P4.
 // Example: see the README, "In your design".
@@ -24,6 +26,7 @@ module shade_core #(
   parameter int REFLECT      = 1,
   parameter int DIVIDE       = 1,
   parameter int PATH_NORMALS = 1,
+  parameter int FOLD         = 1,
   parameter int COLOUR       = 0,
   parameter int DATA_W       = COLOUR == 1 ? shade_pkg::COLOUR_DATA_W : shade_pkg::PIXEL_DATA_W
 ) (
@@ -75,7 +78,7 @@ module shade_core #(
 
   // ---- the door: what is faulty stays outside ---------------------------------------------------------------------
   logic [COUNT_W-1:0] count;
-  logic inside_packet_q, take, whole, empty, long_span, good;
+  logic inside_packet_q, change, clear, hold, take, whole, empty, long_span, good;
   logic [LANES-1:0] ready;
   logic [TURN_W-1:0] turn_q;
   assign count              = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
@@ -83,7 +86,8 @@ module shade_core #(
   assign empty              = count == '0;
   assign long_span          = count > COUNT_W'(shade_pkg::PIXELS_MAX);
   assign good               = whole && !empty && !long_span;
-  assign s_axis_span_tready = ready[turn_q];
+  assign hold               = change || clear;
+  assign s_axis_span_tready = ready[turn_q] && !hold;  // a span sees one set of settings all its way
   assign take               = s_axis_span_tvalid && s_axis_span_tready;
 
   // faults of path normals that do not stop a span: see shade_pixel_normals
@@ -106,6 +110,7 @@ module shade_core #(
     long_q      <= take && whole && long_span;
     metric_q    <= take && metric;
     threshold_q <= take && threshold;
+    if (clear) turn_q <= '0;
     if (rst_i) begin
       turn_q          <= '0;
       inside_packet_q <= 1'b0;
@@ -120,9 +125,10 @@ module shade_core #(
     logic enter, valid, last, taken;
     logic [PIXEL_W-1:0] pixel;
     logic [TAG_W-1:0] tag;
-    assign enter = s_axis_span_tvalid && good && turn_q == TURN_W'(i);
+    assign enter = s_axis_span_tvalid && good && !hold && turn_q == TURN_W'(i);
     shade_lane #(
-      .EVALUATOR(EVALUATOR), .FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS)
+      .EVALUATOR(EVALUATOR), .FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS),
+      .FOLD(FOLD)
     ) u_lane (
       .clk_i, .rst_i, .draw_i(draw), .s_axis_span_tvalid(enter), .s_axis_span_tready(ready[i]), .s_axis_span_tdata,
       .m_axis_pixel_tvalid(valid), .m_axis_pixel_tready(taken), .m_axis_pixel_tdata(pixel),
@@ -186,15 +192,28 @@ module shade_core #(
     pixels_q      <= pixels;
     stalls_q      <= stalls;
     evaluations_q <= evaluations;
+    if (rst_i) {told_q, pixels_q, stalls_q, evaluations_q} <= '0;
   end
+
+  shade_pkg::status_t events;
+  assign events.error_empty     = empty_q;
+  assign events.error_long      = long_q;
+  assign events.error_packet    = packet_q;
+  assign events.error_metric    = metric_q;
+  assign events.error_threshold = threshold_q;
+  assign events.light_model     = told_q[shade_pkg::LIGHT_MODEL];
+  assign events.light_range     = told_q[shade_pkg::LIGHT_RANGE];
+  assign events.light_zero      = told_q[shade_pkg::LIGHT_ZERO];
+  assign events.light_saturated = told_q[shade_pkg::LIGHT_SATURATED];
+  assign events.normal_zero     = told_q[shade_pkg::LANE_NORMAL_ZERO];
+  assign events.normal_short    = told_q[shade_pkg::LANE_NORMAL_SHORT];
 
   shade_registers u_registers (
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .clear_o(), .busy_i(|busy),
-    .events_i({told_q[shade_pkg::LANE_NORMAL_SHORT], told_q[shade_pkg::LANE_NORMAL_ZERO], told_q[3:0],
-               threshold_q, metric_q, packet_q, long_q, empty_q}),
+    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(|busy),
+    .events_i(events),
     .pixels_i(pixels_q), .spans_i({2'b00, spans_q}), .stalls_i(stalls_q), .evaluations_i(evaluations_q),
     .errors_i({2'b00, errors_q})
   );

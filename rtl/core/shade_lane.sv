@@ -13,7 +13,9 @@
 //
 // Nodes are prepared while earlier pixels are drawn. Every pipeline keeps going: what enters one has a credit for its place
 // in the FIFO behind it. No combinational path leads from an input to an output.
-// PATH_NORMALS = 0 leaves out shade_pixel_normals; other parameters: see shade_poly_span, shade_light.
+// PATH_NORMALS = 0 leaves out shade_pixel_normals; EVALUATOR, FORM, REFLECT, DIVIDE: see shade_poly_span, shade_light.
+// FOLD = 6: planner, normals and light with one multiplier each for what takes three or more otherwise: a span and a node in
+// six clocks; REFLECT, DIVIDE and PATH_NORMALS must be 0. The same pixels.
 // Latency, an empty lane: LATENCY_LANE clocks from a span of 1 pixel to its pixel (EVALUATOR_FDIFF, REFLECT = 1).
 // One pixel a clock where a span has no more nodes than pixels. Source: P1, P4.
 // Example: normal (0, 0, 1), increment 0, 5 pixels, light from the viewer -> five pixels of full intensity.
@@ -22,7 +24,8 @@ module shade_lane #(
   parameter int FORM         = shade_pkg::FORM_REFINED,
   parameter int REFLECT      = 1,
   parameter int DIVIDE       = 1,
-  parameter int PATH_NORMALS = 1
+  parameter int PATH_NORMALS = 1,
+  parameter int FOLD         = 1
 ) (
   input  logic                               clk_i,
   input  logic                               rst_i,
@@ -41,6 +44,9 @@ module shade_lane #(
   if (PATH_NORMALS < 0 || PATH_NORMALS > 1) begin : g_check
     $error("shade_lane: PATH_NORMALS must be 0 or 1");
   end
+  if (FOLD != 1 && (FOLD != 6 || REFLECT != 0 || DIVIDE != 0 || PATH_NORMALS != 0)) begin : g_check_fold
+    $error("shade_lane: FOLD must be 1, or 6 with REFLECT, DIVIDE and PATH_NORMALS 0");
+  end
 
   localparam int W = shade_pkg::INTENSITY_W;
   localparam int STEP_W = shade_pkg::STEP_W;
@@ -53,11 +59,11 @@ module shade_lane #(
   localparam int RECORD_LOG2 = shade_pkg::RECORD_FIFO_LOG2;
 
   // ---- spans, beside their plans -------------------------------------------------------------------------------
-  logic normals, accept, some_place_q;
+  logic normals, accept, some_place_q, plan_ready;
   logic [SPAN_LOG2:0] place_q, place_d;
   logic span_taken;
   assign normals = PATH_NORMALS == 1 && draw_i.path == 1'(shade_pkg::PATH_NORMALS);
-  assign accept  = s_axis_span_tvalid && some_place_q && !normals;
+  assign accept  = s_axis_span_tvalid && some_place_q && plan_ready && !normals;
   assign place_d = place_q + (SPAN_LOG2 + 1)'(span_taken) - (SPAN_LOG2 + 1)'(accept);
   always_ff @(posedge clk_i) begin
     place_q      <= place_d;
@@ -90,8 +96,8 @@ module shade_lane #(
   logic [LOG2_W-1:0] log2, last_log2;
   logic [DEGREE_W-1:0] degree, last_degree;
   logic [PLAN_W-1:0] plan;
-  shade_planner u_planner (
-    .clk_i, .rst_i, .valid_i(accept), .gx_i(s_axis_span_tdata[STEPS_W+:STEP_W]),
+  shade_planner #(.FOLD(FOLD)) u_planner (
+    .clk_i, .rst_i, .valid_i(accept), .ready_o(plan_ready), .gx_i(s_axis_span_tdata[STEPS_W+:STEP_W]),
     .gy_i(s_axis_span_tdata[STEPS_W+STEP_W+:STEP_W]), .gz_i(s_axis_span_tdata[STEPS_W+2*STEP_W+:STEP_W]),
     .count_i(count), .flat_i(flat),
     .t1_i(draw_i.t1), .t2_i(draw_i.t2), .t3_i(draw_i.t3), .mantissa_i(draw_i.sharpness),
@@ -111,7 +117,7 @@ module shade_lane #(
   logic [DEGREE_W-1:0] node_degree;
   logic [TAG_W-1:0] node_tag;
   logic signed [W-1:0] vx, vy, vz;
-  shade_node_walk #(.CREDIT_LOG2(RECORD_LOG2)) u_walk (
+  shade_node_walk #(.CREDIT_LOG2(RECORD_LOG2), .PACE(FOLD)) u_walk (
     .clk_i, .rst_i, .valid_i(span_valid && plan_valid), .ready_o(walk_ready), .g_i(span[TAG_W+1+STEPS_W+:STEPS_W]),
     .n_i(span[TAG_W+1+:STEPS_W]), .main_i(plan[PLAN_W-1-:COUNT_W]),
     .log2_i(plan[COUNT_W+LOG2_W+2*DEGREE_W+:LOG2_W]), .degree_i(plan[COUNT_W+LOG2_W+DEGREE_W+:DEGREE_W]),
@@ -124,7 +130,7 @@ module shade_lane #(
 
   logic unit_valid, zero, short_v;
   logic signed [W-1:0] ux, uy, uz;
-  shade_unit u_unit (
+  shade_unit #(.FOLD(FOLD)) u_unit (
     .clk_i, .rst_i, .valid_i(node_valid), .ready_o(), .bypass_i(node_flat), .x_i(vx), .y_i(vy), .z_i(vz),
     .valid_o(unit_valid), .x_o(ux), .y_o(uy), .z_o(uz), .zero_o(zero), .short_o(short_v)
   );
@@ -164,7 +170,7 @@ module shade_lane #(
     assign pixel       = (3 * W)'(0);
     assign pixel_tag   = TAG_W'(0);
   end
-  assign s_axis_span_tready = normals ? line_ready : some_place_q;
+  assign s_axis_span_tready = normals ? line_ready : some_place_q && plan_ready;
 
   // ---- light -------------------------------------------------------------------------------------------------
   logic dark_valid;  // a unit normal, without its light yet
@@ -177,18 +183,42 @@ module shade_lane #(
     if (rst_i) dark_valid <= 1'b0;
   end
 
-  localparam int LATENCY_LIGHT = shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
   logic signed [W-1:0] diffuse, specular;
   logic [shade_pkg::LIGHT_FLAGS_W-1:0] light_flags;
-  shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
-    .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
-    .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .inv_n_i(draw_i.inv_n), .inv_n_exp_i(draw_i.inv_n_exp),
-    .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp), .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz),
-    .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz), .vh_i(draw_i.vh),
-    .valid_i(dark_valid), .nx_i(normal[0+:W]), .ny_i(normal[W+:W]), .nz_i(normal[2*W+:W]),
-    .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
-  );
-  shade_delay #(.WIDTH(2), .DEPTH(LATENCY_LIGHT)) u_fault (.clk_i, .d_i(fault_q), .q_o(fault));
+  if (FOLD == 1) begin : g_light
+    shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
+      .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
+      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .inv_n_i(draw_i.inv_n), .inv_n_exp_i(draw_i.inv_n_exp),
+      .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp), .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz),
+      .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz), .vh_i(draw_i.vh),
+      .valid_i(dark_valid), .nx_i(normal[0+:W]), .ny_i(normal[W+:W]), .nz_i(normal[2*W+:W]),
+      .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
+    );
+    localparam int LATENCY = shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
+    shade_delay #(.WIDTH(2), .DEPTH(LATENCY)) u_fault (.clk_i, .d_i(fault_q), .q_o(fault));
+  end else begin : g_folded
+    // the normal comes LATENCY_UNIT_FOLDED + 1 clocks behind a phase 0 and waits for the next one
+    localparam int TURN = (shade_pkg::LATENCY_UNIT_FOLDED + 1) % FOLD;
+    localparam int WAIT = TURN == 0 ? 0 : FOLD - TURN;
+    logic valid;
+    logic [3*W-1:0] n;
+    shade_delay #(.WIDTH(3 * W), .DEPTH(WAIT)) u_wait (.clk_i, .d_i(normal), .q_o(n));
+    if (WAIT == 0) begin : g_now
+      assign valid = dark_valid;
+    end else begin : g_later
+      shade_valid #(.DEPTH(WAIT)) u_valid (.clk_i, .rst_i, .valid_i(dark_valid), .valid_o(valid));
+    end
+    shade_light_folded #(.FORM(FORM)) u_light (
+      .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
+      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp),
+      .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz), .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz),
+      .valid_i(valid), .ready_o(), .nx_i(n[0+:W]), .ny_i(n[W+:W]), .nz_i(n[2*W+:W]),
+      .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
+    );
+    shade_delay #(.WIDTH(2), .DEPTH(WAIT + shade_pkg::LATENCY_LIGHT_FOLDED)) u_fault (
+      .clk_i, .d_i(fault_q), .q_o(fault)
+    );
+  end
   assign flags_o = {fault, light_flags};
 
   // what a node is to its record waits in a FIFO: cheaper than a register for every clock of the way

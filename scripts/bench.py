@@ -21,12 +21,10 @@ from cocotb_tools.runner import get_runner
 from tqdm import tqdm
 
 import sim
-from golden import contract, poly
-from golden.reference import light
+from golden import contract, plan, poly
+from scripts.papers.view import view
 from scripts.report import save
 from sim import frame
-from sim.scene.mesh import load_mesh
-from sim.scene.raster import expand, scan_convert
 from sim.sources import BUILD
 from sim.tools import environment
 from sim.verilate import reached
@@ -68,22 +66,19 @@ def cocotb_seconds(beats: np.ndarray, pixels: int) -> float:
 
 def main() -> None:
     """Measure, write the report, print a table."""
-    settings = frame.Settings()
-    mesh = load_mesh(settings.mesh)
-    spans = scan_convert(settings.camera.project(mesh), mesh.faces, settings.camera.size)
-    records = frame.plan_spans(spans, settings)
-    nodes, _ = frame.node_light(spans, records, settings)
+    scene = view(1024, 32)
+    spans = scene.spans
+    records = plan.plan(spans.count, scene.kappa)
+    nodes, _ = scene.node_light(records)
     beats = poly.pack_spans(nodes, records.degree, records.count)
     pixels = spans.pixels
-    every = expand(spans, settings.camera.size)
 
     def model(evaluator: int) -> Callable[[], object]:
         loaded = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=contract.FORM_REFINED, waves=False)
         return lambda: loaded.run(s_axis_span_tdata=beats)
 
     def phong() -> np.ndarray:
-        normal = spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
-        return light.light_channels("blinn", normal, settings.light, settings.shininess)
+        return scene.light(frame.normals(spans, 1024))
 
     rates = {}
     with tqdm(total=5, disable=None, delay=2, leave=False) as bar:

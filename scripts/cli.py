@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shlex
 import sys
+from collections.abc import Iterator
+from dataclasses import fields
 from pathlib import Path
 
 import click
 from click.core import ParameterSource
 
-from golden.reference.light import MODELS
-from sim import SimulationError, frame
+from golden.material import MODELS, Material
+from golden.reference.light import ROWS
+from sim import SimulationError, batch, frame
 from sim.errors import UserError
 from sim.scene.camera import PROJECTIONS, Camera
 from sim.sources import BUILD
 
-VIEW = Camera()
+VIEW, SURFACE = Camera(), Material()
 PATH_OF = {"degree": "poly", "evaluator": "poly", "variant": "normals", "threshold": "normals"}  # options of one path
 
 
@@ -29,6 +33,21 @@ def cli() -> None:
     """Polynomial shading in synthesizable SystemVerilog, equal to its golden model bit for bit."""
 
 
+class Exposure(click.ParamType):
+    """A number, or "auto"."""
+
+    name = "auto|float"
+
+    def convert(self, value, param, ctx) -> float | str:
+        """click's hook."""
+        return value if value == "auto" else click.FLOAT.convert(value, param, ctx)
+
+
+def colour(option: str, default: tuple[float, float, float], help: str):
+    """An option of three parts, red, green and blue."""
+    return click.option(option, nargs=3, type=float, default=default, help=f"{help}: red, green, blue, 0 to 1 each.")
+
+
 @cli.command()
 @click.option("--mesh", default="head", help="head, sphere, or an OBJ, PLY, STL, OFF, glTF or GLB file.")
 @click.option("--subdivide", default=0, help="Catmull-Clark steps, 0 to 4.")
@@ -37,12 +56,22 @@ def cli() -> None:
 @click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
 @click.option("--path", default="poly", help="poly: a polynomial along each span; normals: a unit normal every pixel.")
 @click.option(
-    "--evaluator", default="horner", help="Of path poly: horner, a multiplier a step; fdiff, forward differences."
+    "--evaluator", default="fdiff", help="Of path poly: fdiff, forward differences; horner, a multiplier a step."
 )
 @click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
 @click.option("--threshold", default=0.9, help="Of path normals: length below which V1, V2, V4, V5 normalize, 0 to 1.")
-@click.option("--model", default="blinn", help=f"Light: {', '.join(MODELS)}.")
-@click.option("--shininess", default=32.0, help="Exponent n of the highlight, 1 to 1024.")
+@click.option("--lanes", default=1, help="Parallel lanes of the core: 1, 2 or 4.")
+@click.option("--model", default=SURFACE.model, help=f"Light: {', '.join(MODELS)}.")
+@click.option("--shininess", default=SURFACE.shininess, help="phong, blinn, schlick: exponent n, 1 to 1024.")
+@click.option("--roughness", default=SURFACE.roughness, help="cook-torrance, ward: slope m, 0.05 to 0.7.")
+@click.option("--f0", default=SURFACE.f0, help="cook-torrance: reflectance at normal incidence, 0 to 1.")
+@click.option("--energy", default=SURFACE.energy, help=f"Scale of phong or blinn: none, {', '.join(ROWS)}.")
+@click.option("--exposure", type=Exposure(), default=SURFACE.exposure, help="auto, or a factor on the highlight.")
+@click.option("--ambient", default=SURFACE.ambient, help="Weight of ambient light, 0 to 1.")
+@click.option("--diffuse", default=SURFACE.diffuse, help="Weight of diffuse light, 0 to 1.")
+@click.option("--specular", default=SURFACE.specular, help="Weight of the highlight, 0 to 1.")
+@colour("--colour", SURFACE.colour, "Of ambient and diffuse light")
+@colour("--highlight", SURFACE.highlight, "Of the highlight")
 @click.option(
     "--light", nargs=3, type=float, default=(0.3, 0.6, 0.8), help="Direction to the light: right, up, viewer."
 )
@@ -51,43 +80,102 @@ def cli() -> None:
 @click.option("--pitch", default=VIEW.pitch, help="Degrees, tips the mesh's top to the viewer.")
 @click.option("--zoom", default=VIEW.zoom, help="Factor on the fitted scale.")
 @click.option("--field-of-view", default=VIEW.field_of_view, help="Degrees, of a perspective view.")
-@click.option("--out", default=None, help="Folder.  [default: build/render/<mesh>]")
-def render(size: int, projection: str, yaw: float, pitch: float, zoom: float, field_of_view: float, **options) -> None:
+@click.option("--frames", default=1, help="Views of a whole turn: animation.png in place of the three pictures.")
+@click.option("--scheduler", default=None, help="Of --frames: a Dask scheduler.  [default: the cores of this machine]")
+@click.option("--out", default=None, help="Folder.  [default: build/render/<mesh>, of several frames <mesh>-turn]")
+def render(
+    size: int, projection: str, yaw: float, pitch: float, zoom: float, field_of_view: float, frames: int,
+    scheduler: str | None, out: str | None, **options,
+) -> None:  # fmt: skip
     """One frame through the RTL: image.png, reference.png, difference.png, report.json.
 
     Every pixel is compared with the golden model; exit status 1 if any differs.
     """
-    out = options.pop("out")
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
-    settings = frame.Settings(camera=camera, **options)
+    settings = frame.Settings(camera=camera, material=material(options), **options)
     for name, path in PATH_OF.items():
         given = click.get_current_context().get_parameter_source(name) is not ParameterSource.DEFAULT
         if given and path != settings.path:
             raise UserError(f"--{name}: is without effect on path {settings.path}, allowed with --path {path}")
-    if out is not None and (not out or "\0" in out or (os.path.exists(out) and not os.path.isdir(out))):
+    if not 1 <= frames <= batch.FRAMES_MAX:
+        raise UserError(f"--frames: {frames} is out of range, allowed is 1 to {batch.FRAMES_MAX}")
+    if scheduler is not None and frames == 1:
+        raise UserError("--scheduler: is without effect on one frame, allowed with --frames 2 and more")
+    turns = frames > 1
+    folder = folder_of(out, Path("render", Path(settings.mesh).stem + "-turn" * turns))
+    with simulating():
+        made = batch.shoot_all(batch.turntable(settings, frames), scheduler) if turns else frame.render(settings)
+    made.save(folder)
+    image = click.format_filename(folder / ("animation.png" if turns else "image.png"))
+    tell(image, made.report["frames"] if turns else [made.report])
+
+
+def folder_of(out: str | None, default: Path) -> Path:
+    """The folder of ``--out``; its default is below ``build``."""
+    if out is None:
+        return BUILD / default
+    if not out or "\0" in out or (os.path.exists(out) and not os.path.isdir(out)):
         raise UserError(f"--out {out!r}: is no folder, allowed a folder or a new name")
-    folder = BUILD / "render" / Path(settings.mesh).stem if out is None else Path(out)
+    return Path(out)
+
+
+@contextlib.contextmanager
+def simulating() -> Iterator[None]:
+    """A module that stops ends the command with exit status 1, and the line to run it again."""
     try:
-        picture = frame.render(settings)
+        yield
     except SimulationError as error:
         click.echo(f"{error}; again with a waveform: WAVES=1 {rerun()}", err=True)
         sys.exit(1)
-    picture.save(folder)
-    report, image = picture.report, click.format_filename(folder / "image.png")
-    click.echo(
-        f"{image}: {report['pixels']} pixels of {report['spans']} spans in {report['cycles']} clocks, "
-        f"{report['mismatches']} mismatches, NMSE {report['nmse'] or 0:.1e}"
+
+
+def tell(image: str, reports: list[dict]) -> None:
+    """A line about a picture of one frame or several; what differs from the golden model, and exit status 1, if any."""
+    pixels, spans, cycles, mismatches = (
+        sum(report[key] for report in reports) for key in ("pixels", "spans", "cycles", "mismatches")
     )
-    if report["mismatches"]:
-        *told, (_, again) = report["first_mismatch"].items()
-        first = ", ".join(f"{name} {value}" for name, value in told)
-        click.echo(f"first mismatch: {first}; again with a waveform: {again}", err=True)
+    nmse = max(report["nmse"] or 0 for report in reports)
+    click.echo(
+        f"{image}: {pixels} pixels of {spans} spans in {cycles} clocks, {mismatches} mismatches, NMSE {nmse:.1e}"
+    )
+    for report in reports:
+        for name, values in report.get("counter_mismatches", {}).items():
+            click.echo(f"counter {name}: {values}", err=True)
+        if first := dict(report.get("first_mismatch", {})):
+            again = first.pop("again", f"WAVES=1 {rerun()}")
+            told = ", ".join(f"{name} {value}" for name, value in first.items())
+            click.echo(f"first mismatch: {told}; again with a waveform: {again}", err=True)
+    if any({"first_mismatch", "counter_mismatches"} & report.keys() for report in reports):
         sys.exit(1)
+
+
+def material(options: dict) -> Material:
+    """The surface that the options describe, which are taken out of them."""
+    try:
+        return Material(**{part.name: options.pop(part.name) for part in fields(Material)})
+    except ValueError as error:
+        raise UserError(f"--{error}") from error
 
 
 def rerun() -> str:
     """The command line that was typed, to be pasted into a shell."""
     return shlex.join(["polyshade", *sys.argv[1:]])
+
+
+@cli.command()
+@click.option("--mesh", default="head", help="As of render.")
+@click.option("--size", default=256, help="Width and height of a picture in pixels, 16 to 4096.")
+@click.option("--scheduler", default=None, help="A Dask scheduler.  [default: the cores of this machine]")
+@click.option("--out", default=None, help="Folder.  [default: build/gallery]")
+def gallery(mesh: str, size: int, scheduler: str | None, out: str | None) -> None:
+    """Every model, energy scale and form through the RTL: gallery.png, report.json."""
+    from scripts import gallery as command
+
+    folder = folder_of(out, Path("gallery"))
+    with simulating():
+        made = command.shoot(mesh, size, scheduler)
+    frame.save(folder, {"gallery.png": command.sheet(made)}, made.report)
+    tell(click.format_filename(folder / "gallery.png"), made.report["frames"])
 
 
 @cli.command()

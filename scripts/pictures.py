@@ -20,6 +20,7 @@ from tqdm import tqdm
 
 from golden import contract as k
 from golden import poly
+from golden.material import FORMS, Material
 from scripts import svg, waves
 from scripts.papers import p1_arithmetic, p1_face
 from sim import frame
@@ -39,7 +40,7 @@ def head(path: Path) -> None:
 
 def forms(path: Path) -> None:
     """The head in both forms, and their errors."""
-    made = {form: frame.render(frame.Settings(camera=Camera(768), form=form)) for form in frame.FORMS}
+    made = {form: frame.render(frame.Settings(camera=Camera(768), material=Material(form=form))) for form in FORMS}
     p1_face.draw_forms(path, made["paper"], made["refined"])
     Image.open(path).convert("RGB").save(path, optimize=True)
 

@@ -24,6 +24,7 @@ from sim.scene.raster import Spans
 Ints = NDArray[np.int64]
 TAGS = 1 << k.TAG_W
 OFFSETS = {register.name: register.offset for register in registers.registers()}
+WHOLE = {"s_axis_span_tkeep": (1 << k.LINE_DATA_W // 8) - 1, "s_axis_span_tlast": 1}  # beside a packet's data
 COUNTERS = [register.name for register in registers.GROUPS["Counters"]]
 TOLD = ("light_model", "light_range", "light_zero", "light_saturated", "normal_zero", "normal_short")  # as in ``flags``
 
@@ -68,7 +69,7 @@ class Drawn:
 
     pixels: Ints
     golden: golden.Drawn
-    clocks: int
+    clocks: int  # from the first span to the last pixel
     seconds: float  # of simulation
     counters: dict[str, int]
     status: list[str]  # names of the bits that are set
@@ -85,27 +86,28 @@ def draw(
     stage("simulate")
     beats, writes = lines.beats, registers.pack(words)
     began = time.perf_counter()
-    run = model.run(s_axis_span_tdata=beats, writes=writes, reads=[OFFSETS[name] for name in ("STATUS", *COUNTERS)])
+    reads = [OFFSETS[name] for name in ("STATUS", *COUNTERS)]
+    run = model.run(s_axis_span_tdata=beats, **WHOLE, writes=writes, reads=reads)
     seconds = time.perf_counter() - began
     stage("compare")
     wanted = golden.lane(
         lines.n, lines.g, lines.count, words, cosine=lines.cosine,
         evaluator=parameters["EVALUATOR"], form=parameters["FORM"],
     )  # fmt: skip
-    pixels, mismatches, first = compare(run.outputs, lines, beats, wanted)
+    pixels, mismatches, first = compare(run.outputs, lines, beats, wanted, parameters["LANES"])
     if first.get("input", "none") != "none":
-        first["again"] = model.again(s_axis_span_tdata=beats[first["span"]], writes=writes)
-    status, *counted = run.reads
-    counters = dict(zip((name.lower() for name in COUNTERS), counted, strict=True))
-    bits = registers.unpack(OFFSETS["STATUS"], status)
+        first["again"] = model.again(s_axis_span_tdata=beats[first["span"]], **WHOLE, writes=writes)
+    counters = {name.lower(): run.registers[OFFSETS[name]] for name in COUNTERS}
+    bits = registers.unpack(OFFSETS["STATUS"], run.registers[OFFSETS["STATUS"]])
+    clocks = int(run.given[-1] - run.taken[0] + 1) if len(run.given) else 0
     return Drawn(
-        pixels, wanted, run.clocks, seconds, counters, [name for name, bit in bits.items() if bit], mismatches, first,
+        pixels, wanted, clocks, seconds, counters, [name for name, bit in bits.items() if bit], mismatches, first,
         compare_counters(counters, bits, wanted),
     )  # fmt: skip
 
 
 def compare(
-    outputs: Mapping[str, Ints], lines: Lines, beats: NDArray[np.uint32], wanted: golden.Drawn
+    outputs: Mapping[str, Ints], lines: Lines, beats: NDArray[np.uint32], wanted: golden.Drawn, lanes: int = 1
 ) -> tuple[Ints, int, dict]:
     """The pixels (P, 2) that came, the number of those that differ, and the first of these.
 
@@ -114,29 +116,42 @@ def compare(
     owner = wanted.span
     ends = np.append(np.diff(owner), 1)[: len(owner)] != 0
     expected = join(ends.astype(np.int64), lines.tag[owner], wanted.pixels[:, 0] | wanted.pixels[:, 1] << k.PIXEL_W)
-    actual = join(*(outputs[f"m_axis_pixel_{name}"] for name in ("tlast", "tuser", "tdata")))
-    count, came = len(expected), len(actual)
-    shared = min(count, came)
-    wrong = np.flatnonzero(expected[:shared] != actual[:shared])
-    mismatches, first = len(wrong) + abs(count - came), {}
+    count = len(expected)
+    actual, extra = np.full(count, -1), []
+    for lane, came in enumerate(streams(outputs, lanes)):
+        own = np.flatnonzero(owner % lanes == lane)
+        actual[own[: len(came)]] = came[: len(own)]
+        extra += came[len(own) :].tolist()
+    wrong = np.flatnonzero(actual != expected)
+    mismatches, first = len(wrong) + len(extra), {}
     if mismatches:
-        at = int(wrong[0]) if len(wrong) else shared
+        at = int(wrong[0]) if len(wrong) else count
         span = int(owner[at]) if at < count else -1
+        came = actual[at] if at < count else extra[0]
         first = {
             "pixel": at,
             "span": span,
             "input": f"0x{beats[span, ::-1].astype('>u4').tobytes().hex()}" if span >= 0 else "none",
             "expected": f"{expected[at]:#x}" if at < count else "none",
-            "actual": f"{actual[at]:#x}" if at < came else "none",
+            "actual": f"{came:#x}" if came >= 0 else "none",
         }
-    data = np.zeros(count, np.int64)
-    data[:shared] = actual[:shared]
-    mask = (1 << k.PIXEL_W) - 1
+    data, mask = actual.clip(0), (1 << k.PIXEL_W) - 1
     return np.stack([data & mask, data >> k.PIXEL_W & mask], axis=-1), mismatches, first
 
 
+def streams(outputs: Mapping[str, Ints], lanes: int) -> list[Ints]:
+    """What every lane gave, as {tlast, tuser, tdata}."""
+    last, tag, data = (outputs[f"m_axis_pixel_{name}"] for name in ("tlast", "tuser", "tdata"))
+    if lanes == 1:
+        return [join(last, tag, data)]
+    valid, words = outputs["m_axis_pixel_tvalid"], data.view(np.uint32).reshape(-1, lanes).astype(np.int64)
+    mask = (1 << k.TAG_W) - 1
+    beats = (join(last >> i & 1, tag >> k.TAG_W * i & mask, words[:, i]) for i in range(lanes))
+    return [beat[valid >> i & 1 == 1] for i, beat in enumerate(beats)]
+
+
 def join(last: Ints, tag: Ints, data: Ints) -> Ints:
-    """Beats of ``m_axis_pixel`` as {tlast, tuser, tdata}."""
+    """{tlast, tuser, tdata} of ``m_axis_pixel``."""
     return (last << k.TAG_W | tag) << k.PIXEL_DATA_W | data
 
 

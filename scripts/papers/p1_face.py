@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from golden import contract as k
 from golden import plan, poly
+from golden.material import Material
 from scripts.papers import figures
 from scripts.papers.claims import Claim, check, nmse
 from scripts.papers.view import View, view
@@ -41,7 +42,7 @@ GAINS = ("roots and divisions", "multiplications, forward differences", "multipl
 def face(folder: Path, size: int) -> Iterator[Claim]:
     """The head through the RTL, both forms, over the exponent of the highlight."""
     frames = {
-        (form, n): frame.render(frame.Settings(camera=Camera(size), form=form, shininess=n))
+        (form, n): frame.render(frame.Settings(camera=Camera(size), material=Material(form=form, shininess=n)))
         for form in frame.FORMS
         for n in POWERS
     }
@@ -196,8 +197,8 @@ def gains(scene: View) -> tuple[float, float, float]:
     """How many times fewer long operations (``GAINS``) than Phong's method, planning included."""
     spans = scene.spans
     records = plan.plan(spans.count, scene.kappa)
-    _, evaluations = frame.node_light(spans, records, scene.settings)
-    light = NORMALIZE + 2 * DOT + np.array([np.log2(scene.settings.shininess), 0])  # the power by squarings
+    _, evaluations = scene.node_light(records)
+    light = NORMALIZE + 2 * DOT + np.array([np.log2(scene.shininess), 0])  # the power by squarings
 
     # Up to two pixels are lit as they are. Of longer spans the planner needs the unit normal at the far end of the arc,
     # which often is a node's.
@@ -245,7 +246,7 @@ def picture_steps(made: frame.Frame) -> int:
 
 def draw_forms(path: Path, paper: frame.Frame, refined: frame.Frame, white: float = 1 / 16) -> None:
     """Draw two frames and their distance from float64, of the worse channel, as heat: ``white`` and more is white."""
-    size = paper.size
+    size = paper.settings.camera.size
     crop = (slice(None), slice(size * 2 // 11, size * 9 // 11))  # the head is higher than wide
     with figures.drawing(path, 10.4, 4.35, 1, 4) as axes:
         for name, made, (picture, heat) in (

@@ -17,7 +17,7 @@ from golden.reference import normal as reference
 from scripts.papers import figures
 from scripts.papers.claims import Claim, check, nmse
 from scripts.papers.view import view
-from sim import frame
+from sim.core import quantize
 from sim.scene.mesh import Mesh, load_mesh
 
 p2 = partial(check, paper="P2")
@@ -298,7 +298,7 @@ def cosines(mesh: Mesh, corners: NDArray[np.integer]) -> list[NDArray[np.float64
 
 def eta(mesh: Mesh, corners: NDArray[np.integer], form: int, degree: int) -> NDArray[np.float64]:
     """eta from the golden model, with normals in S1.16 and their dot products from ``dot3``."""
-    components = frame.quantize(mesh.normals).T
+    components = quantize(mesh.normals).T
     dots = [normal.dot3(*components[:, pair[:, 0]], *components[:, pair[:, 1]]) for pair in sides(corners)]
     return plan.criterion(*dots, 0, form, degree)[0] / ETA_ONE
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +17,9 @@ from golden.reference import light
 from golden.reference.normal import METHODS, length_error
 from scripts.papers import figures
 from scripts.papers.claims import Claim, check
-from scripts.papers.view import MODEL, View, view
+from scripts.papers.view import View, view
 from sim import frame
-from sim.scene.camera import Camera
+from sim.core import Lines, quantize
 
 p4 = partial(check, paper="P4")
 POWERS = (32, 128, 512)
@@ -59,7 +60,7 @@ def variants(folder: Path, size: int) -> Iterator[Claim]:
     yield p4(
         f"pixels of {len(frames)} frames of V1 .. V6, refined and exact that differ from the golden model",
         "<= 0",
-        sum(made.more["mismatches"] for made in frames),
+        sum(made.mismatches for made in frames),
         unit="pixels",
         kind="repair",
         note=f"RTL, head, {size} x {size}, {pixels} normals each, every bit compared",
@@ -67,7 +68,7 @@ def variants(folder: Path, size: int) -> Iterator[Claim]:
     yield p4(
         "pixel-normal path: normals a clock, over the slowest of these frames",
         ">= 0.98",
-        min(pixels / made.run.clocks for made in frames),
+        min(pixels / made.clocks for made in frames),
         kind="repair",
         note="RTL",
     )
@@ -93,7 +94,7 @@ def variants(folder: Path, size: int) -> Iterator[Claim]:
             kind="repair" if ours else "paper",
             figure="p4_variants.png",
             note=f"RTL, {size} x {size}; diffuse {errors['nmse_diffuse']:.1e}; "
-            f"{pixels / drawn[name, limit, n][0].run.clocks:.4f} normals a clock"
+            f"{pixels / drawn[name, limit, n][0].clocks:.4f} normals a clock"
             + ("" if ours else f"; {multiplications[done]:.2f} multiplications a normal, exact {POINT[1]}; P4: {gain}"),
         )
     for name, (_, error) in TABLE.items():
@@ -204,14 +205,26 @@ def nodes(folder: Path, size: int) -> Iterator[Claim]:
         axes.legend(loc="upper left")
 
 
-def draw(size: int, n: float, variant: str, threshold: float) -> tuple[frame.Drawn, dict]:
-    """The head's pixels with normals of a variant, and their errors (``sim.frame.errors``)."""
-    scene = view(size, n)
-    settings = frame.Settings(
-        path="normals", variant=variant, threshold=threshold, model=MODEL, camera=Camera(size), shininess=n
-    )
-    drawn = frame.draw_normals(scene.spans, settings, lambda stage: None)
-    return drawn, frame.errors(drawn.intensity, scene.exact, scene.visible)
+class Shaded(NamedTuple):
+    """The head's pixels, its normals out of the RTL, their light from float64."""
+
+    intensity: NDArray[np.float64]
+    clocks: int
+    mismatches: int  # normals that differ from the golden model's
+
+
+def draw(size: int, n: float, variant: str, threshold: float) -> tuple[Shaded, dict]:
+    """The head with normals of a variant, light from float64 with the normals as they are, and its errors."""
+    scene, way = view(size, n), (frame.VARIANTS[variant], int(quantize(threshold)))
+    lines = Lines.of(scene.spans)
+    run = sim.load("shade_pixel_normals").run(s_axis_line_tdata=lines.beats, variant_i=way[0], threshold_i=way[1])
+    vectors, _ = normal.pixel_normals(lines.n, lines.g, lines.count, lines.cosine, *way)
+    shifts = k.INTENSITY_W * np.arange(3)
+    actual = (run.m_axis_normal_tdata[:, None] >> shifts & (1 << k.INTENSITY_W) - 1) << 64 - k.INTENSITY_W
+    actual >>= 64 - k.INTENSITY_W
+    intensity = scene.light(actual / frame.ONE, as_given=True).clip(0, 1)
+    mismatches = np.count_nonzero((actual != vectors).any(axis=1))
+    return Shaded(intensity, run.clocks, mismatches), frame.errors(intensity, scene.exact, scene.visible)
 
 
 def middles(count: NDArray[np.integer]) -> int:
@@ -256,7 +269,7 @@ def worst_middles(variant: str) -> float:
     degrees = np.linspace(0, 90, 9001)
     apart = np.radians(degrees) * (2 / 3 if variant == "V3" else 1)
     ends = [np.stack([np.sin(x), np.zeros_like(x), np.cos(x)], axis=-1) for x in (-apart / 2, apart / 2)]
-    a, b = (np.moveaxis(frame.quantize(side), -1, 0) for side in ends)
+    a, b = (np.moveaxis(quantize(side), -1, 0) for side in ends)
     middle = np.stack(normal.bisect(*a, *b, 1 << k.INVC_F - 1), axis=-1) / (1 << k.INTENSITY_F)
     admitted = normal.metric(normal.dot3(*a, *b), k.METRIC_M_MIN)[3] == 0 if variant == "V6" else slice(None)
     return float(length_error(middle[admitted]).max())
@@ -267,12 +280,12 @@ def shade_nodes(scene: View, records: plan.Records, form: int | None) -> dict:
 
     Inner nodes from ``shade_node_chain`` in a form, or normalized exactly (None) like the ends and pixels lit directly.
     """
-    spans, settings = scene.spans, scene.settings
+    spans = scene.spans
 
     def at(position: NDArray[np.int64]) -> NDArray[np.int64]:
         """(R, n, 3): normals at positions (R, n) of the records' spans."""
         vectors = spans.normal[records.span, None] + position[..., None] * spans.gradient[records.span, None]
-        return frame.quantize(light.unit(vectors))
+        return quantize(light.unit(vectors))
 
     vectors = at(records.nodes)
     if form is not None:
@@ -284,8 +297,8 @@ def shade_nodes(scene: View, records: plan.Records, form: int | None) -> dict:
         inner = np.take_along_axis(chain, plan.QUARTERS[records.degree][..., None], axis=1)
         vectors = np.where((records.degree == k.DEGREE_DIRECT)[:, None, None], vectors, inner)
     vectors = vectors / (1 << k.INTENSITY_F)
-    intensity = light.light_channels(MODEL, vectors, settings.light, settings.shininess, as_given=True)
-    beats = poly.pack_spans(np.moveaxis(frame.quantize(intensity), -1, 1), records.degree, records.count)
+    intensity = scene.light(vectors, as_given=True)
+    beats = poly.pack_spans(np.moveaxis(quantize(intensity), -1, 1), records.degree, records.count)
     data = sim.load("shade_poly_span", EVALUATOR=k.EVALUATOR_HORNER).run(s_axis_span_tdata=beats).m_axis_pixel_tdata
     pixels = np.stack([data & 0xFFFF, data >> k.PIXEL_W], axis=1) / frame.ONE
     return frame.errors(pixels, scene.exact, scene.visible)

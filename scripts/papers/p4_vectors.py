@@ -15,7 +15,7 @@ from golden.reference import light
 from golden.reference import normal as reference
 from scripts.papers import figures
 from scripts.papers.claims import Claim, check, nmse
-from sim import frame
+from sim.core import quantize
 
 p2 = partial(check, paper="P2")
 p4 = partial(check, paper="P4")
@@ -302,7 +302,7 @@ def worst_length(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def integer_arcs(angles, count: int, rng: np.random.Generator) -> list[NDArray[np.int64]]:
     """Random pairs of unit normals as two arrays (3, angles, count), S1.16."""
-    return [np.moveaxis(frame.quantize(side), -1, 0) for side in reference.arcs(angles, count, rng)]
+    return [np.moveaxis(quantize(side), -1, 0) for side in reference.arcs(angles, count, rng)]
 
 
 def chain(a: NDArray[np.int64], b: NDArray[np.int64], form: int) -> NDArray[np.int64]:

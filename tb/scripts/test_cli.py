@@ -24,7 +24,9 @@ import pytest
 from PIL import Image
 
 import sim
-from golden import contract, poly
+from golden import contract, poly, registers
+from golden import core as golden
+from golden.material import MODELS
 from scripts import bench, cli, units
 from sim import frame, model, verilate
 from sim.errors import LONGEST
@@ -41,10 +43,12 @@ KEYS = [
     "simulated_pixels_per_second", "wall_seconds", "versions",
 ]  # fmt: skip
 MORE_KEYS = [
-    "subdivide", "projection", "yaw", "pitch", "zoom", "field_of_view", "shininess", "light", "repairs",
-    "visible_pixels", "light_evaluations",
+    "subdivide", "projection", "yaw", "pitch", "zoom", "field_of_view", "lanes", "shininess", "roughness", "f0",
+    "energy", "exposure", "light", "repairs", "visible_pixels", "light_evaluations", "counters", "status",
 ]  # fmt: skip
 KEYS_OF_PATH = {"poly": ["evaluator", "degree", "records"], "normals": ["variant", "threshold"]}
+KEYS_OF_FORM = {"refined": [], "paper": ["nmse_paper_lobe", "nmse_specular_paper_lobe"]}
+COUNTERS = ["pixels", "spans", "clocks", "stalls", "evaluations", "errors"]
 SMALL = ["render", "--mesh", "sphere", "--size", "32"]
 
 
@@ -100,15 +104,20 @@ def sane(folder: Path) -> dict:
     assert sorted(path.name for path in folder.iterdir()) == FILES
     report = strict((folder / "report.json").read_text())
     assert [key for key in report if key in KEYS] == KEYS
-    assert set(report) == {*KEYS, *MORE_KEYS, *KEYS_OF_PATH[report["path"]]}  # no first_mismatch among them
+    assert set(report) == {*KEYS, *MORE_KEYS, *KEYS_OF_PATH[report["path"]], *KEYS_OF_FORM[report["form"]]}
     assert all(key == key.lower() for key in report)
-    plain = {key: value for key, value in report.items() if key not in ("versions", "repairs")}
+    plain = {key: value for key, value in report.items() if key not in ("versions", "repairs", "counters")}
     assert all(value is None or isinstance(value, str | int | float) for value in plain.values())
 
     pixels, cycles = report["pixels"], report["cycles"]
     assert report["mismatches"] == 0
-    assert report["visible_pixels"] <= pixels <= cycles or pixels == cycles == 0
-    assert report["spans"] <= report.get("records", pixels) <= report["light_evaluations"] <= pixels
+    assert report["visible_pixels"] <= pixels <= cycles * report["lanes"] or pixels == 0
+    assert list(report["counters"]) == COUNTERS
+    assert report["counters"]["clocks"] <= cycles
+    evaluations = report["light_evaluations"]
+    told = {"pixels": pixels, "spans": report["spans"], "evaluations": evaluations, "errors": 0, "stalls": 0}
+    assert report["counters"].items() >= told.items()
+    assert report["spans"] <= report.get("records", pixels) <= evaluations <= 1.1 * pixels
     assert report["wall_seconds"] > 0
     assert report["max_error"] >= 0
     assert {"python", "verilator", "numpy"} <= set(report["versions"])
@@ -116,7 +125,6 @@ def sane(folder: Path) -> dict:
         assert report["pixels_per_cycle"] == pixels / cycles
         assert report["light_evaluations_per_pixel"] == report["light_evaluations"] / pixels
         assert report["simulated_pixels_per_second"] > 0
-        assert cycles - pixels <= 64  # latency, and not one bubble
 
     if report["psnr_db"] is not None:  # of two channels
         mean_square, largest = 10 ** (-report["psnr_db"] / 10), report["max_error"] ** 2
@@ -142,25 +150,25 @@ def sane(folder: Path) -> dict:
 # ---- frames ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("model", ["blinn", "phong", "lambert"])
-@pytest.mark.parametrize("evaluator", ["horner", "fdiff"])
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(("evaluator", "lanes"), [("horner", 1), ("fdiff", 1), ("fdiff", 2), ("fdiff", 4)])
 @pytest.mark.parametrize("form", ["refined", "paper"])
-def test_ways_to_shade(polyshade, place: Path, form: str, evaluator: str, model: str) -> None:
+def test_ways_to_shade(polyshade, place: Path, form: str, evaluator: str, lanes: int, model: str) -> None:
     """Every form, evaluator and light: equal to the golden model, and in the refined form near the reference."""
-    options = ["--size", "64", "--form", form, "--evaluator", evaluator, "--model", model]
+    options = ["--size", "64", "--form", form, "--evaluator", evaluator, "--lanes", str(lanes), "--model", model]
     status, out, err = polyshade("render", "--mesh", "sphere", *options, "--out", "frame")
     assert (status, err) == (0, "")
     assert out.count("\n") == 1
     assert "0 mismatches" in out
     report = sane(place / "frame")
-    told = {key: report[key] for key in ("mesh", "size", "form", "path", "evaluator", "model", "triangles")}
+    told = {key: report[key] for key in ("mesh", "size", "form", "path", "evaluator", "lanes", "model", "triangles")}
     assert told == {
-        "mesh": "sphere", "size": 64, "form": form, "path": "poly", "evaluator": evaluator, "model": model,
-        "triangles": 320,
+        "mesh": "sphere", "size": 64, "form": form, "path": "poly", "evaluator": evaluator, "lanes": lanes,
+        "model": model, "triangles": 320,
     }  # fmt: skip
     assert (report["nmse_specular"] is None) == (model == "lambert")
     worst = max(report["nmse_diffuse"], report["nmse_specular"] or 0)
-    # the paper's division by three is 0.78 % off in numbers that nearly cancel
+    # the paper's division by three is 0.78 % off in numbers that nearly cancel, and its lobe is not the model's
     assert worst > 1e-4 if form == "paper" else worst < 2e-5
 
 
@@ -182,6 +190,13 @@ VIEWS = {
     "normals_exact": ["--path", "normals", "--variant", "exact", "--model", "phong"],
     "normals_of_the_paper": ["--path", "normals", "--variant", "V5", "--threshold", "0.95"],
     "normals_of_a_dot": ["--path", "normals", "--zoom", "0.05"],
+    "normals_of_the_paper_ward": ["--path", "normals", "--variant", "V2", "--form", "paper", "--model", "ward"],
+    "rough": ["--model", "cook-torrance", "--roughness", "0.7", "--f0", "1"],
+    "smooth": ["--model", "ward", "--roughness", "0.05", "--lanes", "2"],
+    "energy": ["--energy", "blinn-ndf", "--exposure", "0.2", "--shininess", "100"],
+    "energy_of_the_paper": ["--model", "phong", "--energy", "phong-modified", "--form", "paper"],
+    "overexposed": ["--model", "schlick", "--exposure", "1e6"],
+    "coloured": ["--colour", "0.1", "1", "0", "--highlight", "1", "0", "0", "--ambient", "0", "--specular", "1"],
     "mirror": ["--shininess", "1024"],
     "matt": ["--shininess", "1"],
     "light_behind": ["--light", "0", "0", "-1"],
@@ -208,12 +223,13 @@ def test_a_mesh_that_is_not_seen(polyshade, place: Path, path: str) -> None:
     (place / "back.obj").write_text("v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n")
     status, out, err = polyshade("render", "--mesh", "back.obj", "--size", "16", "--path", path, "--out", "frame")
     assert (status, err) == (0, "")
-    assert "0 pixels of 0 spans in 0 clocks, 0 mismatches" in out
+    assert "0 pixels of 0 spans in " in out
+    assert " 0 mismatches" in out
     report = sane(place / "frame")
-    assert {key: report[key] for key in ("triangles", "spans", "pixels", "cycles", "visible_pixels")} == {
-        "triangles": 1, "spans": 0, "pixels": 0, "cycles": 0, "visible_pixels": 0,
+    assert {key: report[key] for key in ("triangles", "spans", "pixels", "visible_pixels")} == {
+        "triangles": 1, "spans": 0, "pixels": 0, "visible_pixels": 0,
     }  # fmt: skip
-    unknown = ("pixels_per_cycle", "light_evaluations_per_pixel", "nmse", "nmse_diffuse", "nmse_specular", "psnr_db")
+    unknown = ("light_evaluations_per_pixel", "nmse", "nmse_diffuse", "nmse_specular", "psnr_db")
     assert all(report[key] is None for key in unknown)
     assert report["max_error"] == 0
     assert report["repairs"] == {"absent_normals": 3}
@@ -325,6 +341,23 @@ BAD_NUMBERS = [
     *((["--subdivide", value], "--subdivide") for value in ("-1", "5", "0.5", "nan", "99999999999999999999")),
     *((["--degree", value], "--degree") for value in ("0", "4", "-1", "2.5", "cubic")),
     *((["--shininess", value], "--shininess") for value in (*NO_NUMBERS, "0", "0.99", "-0.0", "1024.1", "1e308")),
+    *((["--roughness", value], "--roughness") for value in (*NO_NUMBERS, "0", "0.049", "0.71", "-0.3")),
+    *((["--f0", value], "--f0") for value in (*NO_NUMBERS, "-0.01", "1.01", "-1e-300")),
+    *((["--exposure", value], "--exposure") for value in (*NO_NUMBERS, "0", "-1", "9e-7", "1.1e6", "Auto")),
+    *((["--lanes", value], "--lanes") for value in ("0", "3", "5", "8", "-1", "1.0", "two", "")),
+    *(
+        ([option, value], option)
+        for option in ("--ambient", "--diffuse", "--specular")
+        for value in ("nan", "inf", "-0.1", "1.1", "", "much")
+    ),
+    *(
+        ([option, *value.split()], option)
+        for option in ("--colour", "--highlight")
+        for value in ("0 0 1.1", "-0.1 0 0", "nan 0 0", "0 inf 0", "red", "1 1", "#fff 0 0")
+    ),
+    # out of range counts even where the model does not use it
+    (["--model", "lambert", "--shininess", "2000"], "--shininess"),
+    (["--model", "blinn", "--roughness", "0"], "--roughness"),
     *((["--yaw", value], "--yaw") for value in ("nan", "361", "-1e9", "left", "")),
     *((["--pitch", value], "--pitch") for value in ("nan", "90.001", "-inf", "up", "")),
     *((["--zoom", value], "--zoom") for value in ("nan", "0", "-0.0", "0.049", "50.1", "1e-320", "-1", "")),
@@ -340,6 +373,9 @@ BAD_NAMES = [
     *((["--form", name], "--form") for name in ("", "Refined", "refined ", "papers", "1", "\x1b[2J", "\u0440aper")),
     *((["--evaluator", name], "--evaluator") for name in ("", "Horner", "newton", "0", "horner\n")),
     *((["--model", name], "--model") for name in ("", "Blinn", "gouraud", "blinn,phong", "None", "nan")),
+    *((["--energy", name], "--energy") for name in ("", "None", "ward", "blinn_ndf", "blinn-", "1", "nan")),
+    (["--energy", "phong"], "--energy: 'phong' is none of none, blinn, blinn-modified, blinn-ndf, blinn-height"),
+    *((["--model", name, "--energy", "blinn"], "--energy") for name in MODELS if name != "blinn"),
     *((["--path", name], "--path") for name in ("", "curve", "Poly", "../poly")),
     *((["--variant", name], "--variant") for name in ("", "V0", "V7", "v1", "REFINED", "V1..V6")),
     *((["--projection", name], "--projection") for name in ("", "iso", "PERSPECTIVE", "orthographic\t")),
@@ -556,15 +592,15 @@ def test_a_build_folder_that_cannot_be_written(polyshade, place, monkeypatch) ->
 
 
 def test_a_mismatch(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Exit status 1; the first wrong pixel with record, input, both values in hex, and the line to run it again."""
-    true = poly.poly_span
+    """Exit status 1; the first wrong pixel with span, input, both values in hex, and the line to run it again."""
+    true = golden.lane
 
     def wrong(*arguments, **options):
-        pixels, owner = true(*arguments, **options)
-        pixels[[70, 90], 1] ^= 0x21
-        return pixels, owner
+        drawn = true(*arguments, **options)
+        drawn.pixels[[70, 90], 1] ^= 0x21
+        return drawn
 
-    monkeypatch.setattr(poly, "poly_span", wrong)
+    monkeypatch.setattr(golden, "lane", wrong)
     status, out, err = polyshade(*SMALL, "--out", "it's here")
     assert status == 1
     assert "2 mismatches" in out
@@ -582,12 +618,13 @@ def test_a_mismatch(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> 
     compile(code, "again", "exec")
 
     # the input that is told makes the pixel that is told
-    beat = [int(first["input"], 16) >> 32 * word & 0xFFFFFFFF for word in range(contract.SPAN_DATA_W // 32)]
-    run = sim.load("shade_poly_span", EVALUATOR=contract.EVALUATOR_HORNER, FORM=contract.FORM_REFINED).run(
-        s_axis_span_tdata=beat
+    beat = [int(first["input"], 16) >> 32 * word & 0xFFFFFFFF for word in range(contract.LINE_DATA_W // 32)]
+    settings = frame.Settings()
+    run = sim.load("shade_core", **settings.parameters).run(
+        s_axis_span_tdata=beat, writes=registers.pack(settings.registers)
     )
     assert int(first["actual"], 16) & 0xFFFFFFFF in run.m_axis_pixel_tdata
-    assert first["record"] == int(first["input"], 16) >> contract.SPAN_TAG_LSB
+    assert first["span"] == beat[6] >> 16
 
 
 # ---- the other commands ------------------------------------------------------------------------------------------
@@ -655,7 +692,7 @@ def process(*arguments: str | bytes, **environment: str) -> subprocess.Completed
     """The command line in a process of its own."""
     return subprocess.run(
         [sys.executable, "-m", "scripts.cli", *arguments], cwd=ROOT, env={**os.environ, **environment},
-        capture_output=True, text=True, errors="surrogateescape", timeout=60,
+        capture_output=True, text=True, errors="surrogateescape", timeout=300,  # the core may have to be compiled
     )  # fmt: skip
 
 

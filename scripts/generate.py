@@ -1,7 +1,8 @@
 """Write what the RTL takes from the golden model: ``python -m scripts.generate`` (``--check``: compare).
 
 ``rtl/shade_pkg.sv`` from ``golden/contract.py`` and ``golden/registers.py``, the table
-``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``, ``docs/registers.md`` from ``golden/registers.py``.
+``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``, ``docs/registers.md`` from ``golden/registers.py``,
+``docs/interface.md`` from ``golden/packets.py`` and the contract.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from itertools import accumulate
 from pathlib import Path
 
 from golden import contract as k
-from golden import fixed, registers
+from golden import fixed, packets, registers
 
 ROOT = Path(__file__).resolve().parent.parent
 HEADER = """\
@@ -171,7 +172,12 @@ MAP_HEADER = """\
 
 Generated from `golden/registers.py` by `python -m scripts.generate`: change them there. Words of 32 bits on AXI4-Lite,
 by byte offset; unnamed bits read 0. `S1.16`: signed, one integer bit, 16 fraction bits; `U`: unsigned. Access `ro`:
-writing changes nothing. Values come from physical parameters by `golden.material`, words by `golden.registers.pack`:
+writing changes nothing.
+
+An offset without a register is answered `SLVERR` and reads 0. So is a write to an `rw` register while `busy`, and nothing
+changes: a draw call cannot be torn. The one exception is `CONTROL` with `clear` set and its other bits as they are read.
+
+Values come from physical parameters by `golden.material`, words by `golden.registers.pack`:
 
 ```python
 from golden.material import Material, colour_registers, planner_registers, registers
@@ -204,7 +210,62 @@ def register_map() -> str:
     return "\n".join(lines)
 
 
+INTERFACE_HEADER = """\
+# Packets, codes, latencies
+
+Generated from `golden/packets.py` and `golden/contract.py` by `python -m scripts.generate`: change them there. The same constants
+stand in `rtl/shade_pkg.sv`. Every packet is one beat of an AXI4-Stream. `S1.16`: signed, one integer bit, 16 fraction bits; `U`: unsigned.
+Settings and counters: [registers](registers.md).
+"""
+CODES = {
+    "PATH": "way through the core",
+    "MODEL": "light",
+    "VARIANT": "normals of path 1",
+    "DEGREE": "degree of a record",
+    "EVALUATOR": "parameter EVALUATOR",
+    "FORM": "parameter FORM",
+    "NODES": "parameter NODES",
+    "LIGHT": "bits of flags_o of the light units",
+    "LANE": "more bits of a lane's",
+    "ERROR": "bits of error_o",
+    "LINE_ERROR": "more bits of shade_pixel_normals",
+}
+
+
+def interface() -> str:
+    """The page of packets, codes and latencies."""
+    lines = [INTERFACE_HEADER, "## Packets", ""]
+    for name, packet in packets.PACKETS.items():
+        lines += [f"### {name}, {packet.width} bits", "", f"{packet.meaning[0].upper()}{packet.meaning[1:]}.", ""]
+        lines += [f"On {packet.stream}.", "", "| bits | field | format | meaning |", "|---|---|---|---|"]
+        lines += [f"| {f.bits} | `{f.name}` | {f.format} | {f.meaning} |" for f in packet.fields]
+        lines.append("")
+    comments = dict(re.findall(r"^([A-Z0-9_]+) = [^#\n]*#\s*(.*)$", Path(k.__file__).read_text(), re.MULTILINE))
+    lines += ["## Codes", "", "| constant | value | meaning |", "|---|---|---|"]
+    for prefix, title in CODES.items():
+        lines.append(f"| **{title}** | | |")
+        lines += [
+            f"| `{name}` | {value} | {comments.get(name, '').replace('|', chr(92) + '|')} |"
+            for name, value in k.constants().items()
+            if re.fullmatch(rf"{prefix}_[A-Z0-9]+(_[A-Z]+)*", name)
+            and not name.endswith(("_W", "_MAX", "_F"))
+            and not (prefix == "LINE" and name.startswith("LINE_ERROR"))
+        ]
+    lines += [
+        "", "## Latencies", "",
+        "In clocks from an input taken to the output that it causes. The module is named like the constant.", "",
+        "| constant | clocks | made of |", "|---|---|---|",
+    ]  # fmt: skip
+    lines += [
+        f"| `{name}` | {value} | {comments.get(name, '')} |"
+        for name, value in k.constants().items()
+        if name.startswith("LATENCY_")
+    ]
+    return "\n".join([*lines, ""])
+
+
 GENERATED = {
+    "docs/interface.md": interface,
     "rtl/shade_pkg.sv": package,
     "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom,
     "docs/registers.md": register_map,

@@ -1,0 +1,44 @@
+"""Packets: the functions that pack them put every field where the tables say, and fields do not overlap."""
+
+import numpy as np
+import pytest
+
+from golden import contract as k
+from golden.normal import pack_lines
+from golden.packets import LINE, PACKETS, SPAN, Packet
+from golden.poly import pack_spans
+from golden.registers import Field
+
+
+def whole(words: np.ndarray) -> int:
+    """One beat as a number."""
+    return int.from_bytes(words.astype("<u4").tobytes(), "little")
+
+
+def line(field: Field, value: int) -> int:
+    values = {f.name: value if f is field else 0 for f in LINE.fields}
+    vectors = [[[values[f"{name}_{axis}"] for axis in "xyz"]] for name in ("normal", "increment")]
+    return whole(pack_lines(*vectors, *([values[name]] for name in ("count", "cosine", "tag", "flat")))[0])
+
+
+def span(field: Field, value: int) -> int:
+    values = {f.name: value if f is field else 0 for f in SPAN.fields}
+    nodes = [[[values[f"{c}_{i}"] for i in range(k.NODE_COUNT)] for c in ("diffuse", "specular")]]
+    return whole(pack_spans(nodes, *([values[name]] for name in ("degree", "count", "tag", "more")))[0])
+
+
+@pytest.mark.parametrize("pack, packet", [(line, LINE), (span, SPAN)], ids=["LINE", "SPAN"])
+def test_every_field_is_where_the_table_says(pack, packet: Packet) -> None:
+    for field in packet.fields:
+        for value in {field.range[0], field.range[1], 1}:
+            value = max(value, -1) if field.width == 1 else value
+            assert pack(field, value) == (value & (1 << field.width) - 1) << field.lsb, field.name
+
+
+@pytest.mark.parametrize("name", PACKETS)
+def test_fields_do_not_overlap(name: str) -> None:
+    used = 0
+    for field in PACKETS[name].fields:
+        bits = (1 << field.width) - 1 << field.lsb
+        assert not used & bits and bits < 1 << PACKETS[name].width, field.name
+        used |= bits

@@ -14,12 +14,12 @@
 //   y = 2 y - z^2, from 1/2 on 1 - z^2
 //
 // Near the peak of the lobe y is small, and so is its error, which the power multiplies by 2^POWER. Roundings to
-// nearest, ties up; within 1.6 ulp of the formula with k1 and k2 before they became registers. n = 1 .. 1024; with POWER
-// less than 4 to 96 2^POWER.
+// nearest, ties up; within 1.6 ulp of the formula with k1 and k2 before they became registers. n = 1 .. 1024, with
+// POWER less than 4 up to 96 2^POWER.
 //
 // k1_i, k2_i, xmax_i, shift_i must stay as they are while values are in flight.
 //
-// FOLD = 1: a value a clock; four 18 x 18 multipliers, and for each power beyond 4 one shade_square_fabric.
+// FOLD = 1: a value a clock; four 18 x 18 multipliers, and a shade_square_fabric for every squaring behind the second.
 //           Latency LATENCY_LOBE = 31 clocks, 6 fewer for each POWER less than 4; ready_o is 1.
 // FOLD = 6: one multiplier, a loop of five clocks a product; values start six clocks apart and never meet in it. ready_o
 //           is 1 in every sixth clock. Latency LATENCY_LOBE_FOLDED = 33 clocks, 5 fewer for each POWER less than 4.

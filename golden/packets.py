@@ -66,7 +66,8 @@ PIXEL = Packet(
     k.PIXEL_DATA_W,
     "a pixel; tuser is the span's tag, tlast its last pixel",
     tuple(
-        Field(name, k.PIXEL_W, f"{name} light", "U0.16", k.PIXEL_W * i) for i, name in enumerate(("diffuse", "specular"))
+        Field(name, k.PIXEL_W, f"{name} light", "U0.16", k.PIXEL_W * i)
+        for i, name in enumerate(("diffuse", "specular"))
     ),
 )
 COLOURED = Packet(

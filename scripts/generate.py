@@ -174,8 +174,9 @@ Generated from `golden/registers.py` by `python -m scripts.generate`: change the
 by byte offset; unnamed bits read 0. `S1.16`: signed, one integer bit, 16 fraction bits; `U`: unsigned. Access `ro`:
 writing changes nothing.
 
-An offset without a register is answered `SLVERR` and reads 0. So is a write to an `rw` register while `busy`, and nothing
-changes: a draw call cannot be torn. The one exception is `CONTROL` with `clear` set and its other bits as they are read.
+An offset without a register is answered `SLVERR` and reads 0. So is a write to an `rw` register while `busy`, and
+nothing changes: a draw call cannot be torn. The one exception is `CONTROL` with `clear` set and its other bits as they
+are read.
 
 Values come from physical parameters by `golden.material`, words by `golden.registers.pack`:
 
@@ -213,9 +214,9 @@ def register_map() -> str:
 INTERFACE_HEADER = """\
 # Packets, codes, latencies
 
-Generated from `golden/packets.py` and `golden/contract.py` by `python -m scripts.generate`: change them there. The same constants
-stand in `rtl/shade_pkg.sv`. Every packet is one beat of an AXI4-Stream. `S1.16`: signed, one integer bit, 16 fraction bits; `U`: unsigned.
-Settings and counters: [registers](registers.md).
+Generated from `golden/packets.py` and `golden/contract.py` by `python -m scripts.generate`: change them there. The same
+constants stand in `rtl/shade_pkg.sv`. Every packet is one beat of an AXI4-Stream. `S1.16`: signed, one integer bit, 16
+fraction bits; `U`: unsigned. Settings and counters: [registers](registers.md).
 """
 CODES = {
     "PATH": "way through the core",

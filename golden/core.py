@@ -15,7 +15,7 @@ from golden import contract as k
 from golden import registers
 from golden.fixed import Int, integers, saturate
 from golden.light import colour, light
-from golden.normal import pixel_normals, unit
+from golden.normal import line_errors, pixel_normals, unit
 from golden.plan import Nodes, node_walk, planner
 from golden.poly import poly_span
 
@@ -31,6 +31,19 @@ class Drawn(NamedTuple):
     span: Int
     flags: Int
     records: int
+
+
+class Told(NamedTuple):
+    """What a core gives and tells: ``pixels`` (P, 2), or coloured (P, 3), U0.16; ``span``, ``lane`` (P,) of each.
+
+    ``counters`` and ``status``: by the names of ``golden.registers``, what does not depend on the clock.
+    """
+
+    pixels: Int
+    span: Int
+    lane: Int
+    counters: dict[str, int]
+    status: dict[str, int]
 
 
 def collect(nodes: Nodes, intensity: ArrayLike) -> Int:
@@ -83,6 +96,56 @@ def lane(
     records = collect(nodes, np.stack([diffuse, specular], -1))
     pixels, record = poly_span(records, nodes.degree, nodes.count, evaluator=evaluator, form=form)
     return Drawn(pixels, nodes.span[record], flags, len(nodes.span))
+
+
+def core(
+    n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], *, torn: ArrayLike = 0,
+    flat: ArrayLike = 0, cosine: ArrayLike = 0, lanes: int = 1, colour: int = 0, path_normals: int = 1, **built: int,
+) -> Told:  # fmt: skip
+    """Spans as packets, of any length; the good ones go to the lanes in turn (``shade_core``).
+
+    ``torn`` (S,): packets cut short or too long. Of these, of spans of 0 pixels and of more than 4096 nothing comes.
+    ``colour``: pixels are coloured. Others as in ``lane``.
+
+    >>> told = core([[0, 0, 1 << 29]] * 3, [[0, 0, 0]] * 3, [1, 0, 1], {}, lanes=2)
+    >>> told.span.tolist(), told.lane.tolist(), told.counters["errors"], told.status["error_empty"]
+    ([0, 2], [0, 1], 1, 1)
+    """
+    n, g = integers(n, g)
+    count, torn, flat, cosine = np.broadcast_arrays(*integers(count, torn, flat, cosine))
+    draw = registers.after_reset() | dict(draw)
+    empty, long = count == 0, count > k.PIXELS_MAX
+    good = np.flatnonzero(~(empty | long | (torn > 0)))
+    drawn = lane(
+        n[good], g[good], count[good], draw, flat=flat[good], cosine=cosine[good], path_normals=path_normals, **built
+    )
+
+    normals = path_normals and draw["path"] == k.PATH_NORMALS
+    errors = int(np.bitwise_or.reduce(line_errors(count[good], draw["variant"], draw["threshold"]), initial=0))
+    flags = int(np.bitwise_or.reduce(drawn.flags, initial=0))
+    status = {
+        "error_empty": np.any(empty & (torn == 0)),
+        "error_long": np.any(long & (torn == 0)),
+        "error_packet": np.any(torn),
+        "error_metric": normals and errors >> k.LINE_ERROR_METRIC & 1,
+        "error_threshold": normals and errors >> k.LINE_ERROR_THRESHOLD & 1,
+        "light_model": flags >> k.LIGHT_MODEL & 1,
+        "light_range": flags >> k.LIGHT_RANGE & 1,
+        "light_zero": flags >> k.LIGHT_ZERO & 1,
+        "light_saturated": flags >> k.LIGHT_SATURATED & 1,
+        "normal_zero": flags >> k.LANE_NORMAL_ZERO & 1,
+        "normal_short": flags >> k.LANE_NORMAL_SHORT & 1,
+    }
+    counters = {
+        "pixels": len(drawn.pixels),
+        "spans": len(good),
+        "evaluations": len(drawn.flags),
+        "errors": len(count) - len(good),
+    }
+    return Told(
+        paint(drawn.pixels, draw) if colour else drawn.pixels, good[drawn.span], drawn.span % lanes, counters,
+        {name: int(bit) for name, bit in status.items()},
+    )  # fmt: skip
 
 
 def paint(pixels: ArrayLike, draw: Mapping[str, int]) -> Int:

@@ -110,7 +110,7 @@ GROUPS: dict[str, tuple[Register, ...]] = {
                 Field("colour", 1, "pixels are 0: diffuse and specular light, 1: weighted red, green, blue", lsb=1),
                 Field("variant", k.VARIANT_W, f"of path 1, {_codes('VARIANT')}", lsb=4),
                 Field("fixed_degree", k.DEGREE_W, "0: adaptive, 1 to 3: of every span, as in P1", lsb=8),
-                Field("clear", 1, "writing 1 sets the counters and STATUS to 0; reads 0", lsb=31),
+                Field("clear", 1, "writing 1: counters and STATUS become 0, the next span goes to lane 0", lsb=31),
             ),
         ),
         *_group(

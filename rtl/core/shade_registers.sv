@@ -1,10 +1,11 @@
 // shade_registers: the register map of docs/registers.md as an AXI4-Lite slave: settings, status, counters.
 //
 //   s_axil_*      words of 32 bits, bits 1:0 of an address and *prot are ignored. Address and data of a write may come in any
-//                 order; strobes choose its bytes. One access is served at a time, writes and reads by turns.
+//                 order; strobes choose its bytes. One access is served at a time; a write and a read that both wait: the write.
 //   SLVERR        no register at the offset (reads 0), or a setting written while busy_i: nothing changes.
 //                 Allowed while busy: CONTROL with clear set and its settings as they are.
 //   draw_o        the settings; they change only while busy_i is 0
+//   change_o      high in the last clock of a write: settings may be others in the next one; no span may come in between
 //   clear_o       high for one clock: CONTROL.clear was written
 //   events_i      STATUS bits to set; they stay until they are cleared
 //   pixels_i, ... by how much the counters rise in this clock; CLOCKS rises while busy_i. Counters wrap around.
@@ -36,6 +37,7 @@ module shade_registers (
   output logic        [31:0] s_axil_rdata,
   output logic        [ 1:0] s_axil_rresp,
   output shade_pkg::draw_t   draw_o,
+  output logic               change_o,
   output logic               clear_o,
   input  logic               busy_i,
   input  shade_pkg::status_t events_i,
@@ -95,22 +97,22 @@ module shade_registers (
   end
 
   // ---- an access: choose one, read its word, put the bytes written into it, end it ---------------------------------
-  logic writable, readable, choose_write, idle, look_q, merge_q, end_q, write_q;
+  logic writable, readable, idle, look_q, merge_q, end_q, write_q;
   shade_pkg::select_t select_q;
-  assign writable     = !s_axil_awready && !s_axil_wready && !s_axil_bvalid;
-  assign readable     = !s_axil_arready && !s_axil_rvalid;
-  assign choose_write = writable && !(readable && write_q);  // by turns
-  assign idle         = !look_q && !merge_q && !end_q;
+  assign writable = !s_axil_awready && !s_axil_wready && !s_axil_bvalid;
+  assign readable = !s_axil_arready && !s_axil_rvalid;
+  assign idle     = !look_q && !merge_q && !end_q;
   always_ff @(posedge clk_i) begin
     {look_q, merge_q, end_q} <= {idle && (writable || readable), look_q, merge_q};
     if (idle) begin
-      write_q  <= choose_write;
-      select_q <= shade_pkg::register_at(choose_write ? write_at_q : read_at_q);
+      write_q  <= writable;  // a read that waits comes next: behind a write no other one can be there yet
+      select_q <= shade_pkg::register_at(writable ? write_at_q : read_at_q);
     end
     if (rst_i) {look_q, merge_q, end_q} <= 3'b000;
   end
-  assign write = end_q && write_q;
-  assign read  = end_q && !write_q;
+  assign write    = end_q && write_q;
+  assign read     = end_q && !write_q;
+  assign change_o = write;
 
   logic [31:0] draw_q, own_q, word, merged, word_q;
   logic mapped_q, setting_q, clears_q;

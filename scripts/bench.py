@@ -1,10 +1,10 @@
-"""``make bench``: how fast a frame is made, side by side in one run; left in ``build/bench.json``.
+"""``make bench``: how fast a frame is simulated, and what the core gains; left in ``build/bench.json``.
 
     {"<name>": {value, unit, versus, ratio}}
 
-``value`` is the median of several runs, ``ratio`` is value / value of ``versus``. All measure the same frame: the
+``ratio`` is value / value of ``versus``. Speeds are medians of several runs in one go, all of the same frame: the
 default head at 1024 x 1024, Blinn-Phong, n = 32. cocotb gets the first spans of it only, without gaps, stalls or
-checks: the least that a bench in Python does.
+checks: the least that a bench in Python does. The core's gains over ``shade_phong``: see ``scripts.gains``.
 """
 
 from __future__ import annotations
@@ -22,9 +22,13 @@ from tqdm import tqdm
 
 import sim
 from golden import contract, plan, poly
+from golden.material import planner_registers, registers
+from golden.registers import pack
+from scripts import gains
 from scripts.papers.view import view
 from scripts.report import save
 from sim import frame
+from sim.core import WHOLE, Lines
 from sim.sources import BUILD
 from sim.tools import environment
 from sim.verilate import reached
@@ -77,17 +81,25 @@ def main() -> None:
         loaded = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=contract.FORM_REFINED, waves=False)
         return lambda: loaded.run(s_axis_span_tdata=beats)
 
+    def core() -> Callable[[], object]:
+        loaded = sim.load("shade_core", waves=False)
+        settings = scene.settings
+        words = registers(settings.material, settings.light) | planner_registers(settings.material)
+        lines = Lines.of(spans).beats
+        return lambda: loaded.run(s_axis_span_tdata=lines, **WHOLE, writes=pack(words))
+
     def phong() -> np.ndarray:
         return scene.light(frame.normals(spans, 1024))
 
     rates = {}
-    with tqdm(total=5, disable=None, delay=2, leave=False) as bar:
+    with tqdm(total=12, disable=None, delay=2, leave=False) as bar:
 
         def rate(name: str, count: int, seconds: float) -> None:
             rates[name] = count / seconds
             bar.set_description(name)
             bar.update()
 
+        rate("rtl_core", pixels, median_seconds(core()))
         rate("rtl_horner", pixels, median_seconds(model(contract.EVALUATOR_HORNER)))
         rate("rtl_fdiff", pixels, median_seconds(model(contract.EVALUATOR_FDIFF)))
         rate("golden_numpy", pixels, median_seconds(lambda: poly.poly_span(nodes, records.degree, records.count)))
@@ -96,12 +108,19 @@ def main() -> None:
         count = int(records.count[:few].sum())
         rate("rtl_horner_cocotb", count, cocotb_seconds(beats[:few], count))
 
+        def step(name: str) -> None:
+            bar.set_description(name)
+            bar.update()
+
+        gained = dict(gains.main(tick=step))
+
     versus = dict.fromkeys(rates, "rtl_horner_cocotb") | {"rtl_horner_cocotb": "rtl_horner"}
     report = {
         name: {"value": value, "unit": "pixels/s", "versus": versus[name], "ratio": value / rates[versus[name]]}
         for name, value in rates.items()
     }
+    report |= gained
     save(OUT, report)
-    print(f"{'name':22} {'pixels/s':>12} {'ratio':>10}  versus")
+    print(f"{'name':35} {'value':>12} {'unit':20} {'ratio':>8}  versus")
     for name, row in report.items():
-        print(f"{name:22} {row['value']:12,.0f} {row['ratio']:10.3g}  {row['versus']}")
+        print(f"{name:35} {row['value']:12,.4g} {row['unit']:20} {row['ratio']:8.3g}  {row['versus']}")

@@ -27,8 +27,9 @@ import sim
 from golden import contract, poly, registers
 from golden import core as golden
 from golden.material import MODELS
+from golden.reference.light import ROWS
 from scripts import bench, cli, units
-from sim import frame, model, verilate
+from sim import batch, core, frame, model, verilate
 from sim.errors import LONGEST
 from sim.sources import ROOT
 from sim.units import Case, cases
@@ -274,6 +275,54 @@ def test_a_frame_is_the_same_again(polyshade, place: Path) -> None:
         assert (place / "one" / name).read_bytes() == (place / "two" / name).read_bytes()
 
 
+# ---- several frames ----------------------------------------------------------------------------------------------
+
+
+def test_turntable(polyshade, place: Path) -> None:
+    """A whole turn: an animation, and a report with the frames' reports in it."""
+    status, out, err = polyshade("render", "--size", "32", "--frames", "3", "--yaw", "10", "--lanes", "2")
+    assert (status, err) == (0, "")
+    folder = place / "build" / "render" / "head-turn"
+    assert sorted(path.name for path in folder.iterdir()) == ["animation.png", "report.json"]
+    report = strict((folder / "report.json").read_text())
+    assert set(report) == {"pixels", "mismatches", "cycles", "pixels_per_cycle", "wall_seconds", "frames"}
+    assert [each["yaw"] for each in report["frames"]] == [10, 130, 250]
+    assert [key for key in report["frames"][1] if key in KEYS] == KEYS
+    assert f"{report['pixels']} pixels" in out
+    assert " 0 mismatches" in out
+    with Image.open(folder / "animation.png") as image:
+        assert (image.n_frames, image.size, image.mode, image.format) == (3, (32, 32), "RGB", "PNG")
+
+
+def test_gallery(polyshade, place: Path) -> None:
+    """Every model in both forms, and every energy scale, none with a mismatch."""
+    status, out, err = polyshade("gallery", "--mesh", "sphere", "--size", "24")
+    assert (status, err) == (0, "")
+    folder = place / "build" / "gallery"
+    assert sorted(path.name for path in folder.iterdir()) == ["gallery.png", "report.json"]
+    frames = strict((folder / "report.json").read_text())["frames"]
+    shown = {(each["model"], each["energy"], each["form"]) for each in frames}
+    scales = [(row.partition("-")[0], row) for row in ROWS]
+    assert shown == {(*look, form) for look in [(m, "none") for m in MODELS] + scales for form in ("refined", "paper")}
+    assert len(frames) == len(shown)
+    assert not any(each["mismatches"] for each in frames)
+    assert "0 mismatches" in out
+
+
+def test_a_scheduler_that_is_not_there(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(batch, "PATIENCE", 1)
+    for command in (["render", "--frames", "2"], ["gallery"]):
+        message = refused(polyshade(*command, "--mesh", "sphere", "--size", "16", "--scheduler", "tcp://127.0.0.1:1"))
+        assert message.startswith("--scheduler 'tcp://127.0.0.1:1': no worker answers")
+    assert listing(place) == {}
+
+
+def test_several_frames_of_a_bad_mesh(polyshade, place: Path) -> None:
+    """Told before any process is started."""
+    assert "nowhere.obj" in refused(polyshade("render", "--frames", "2", "--mesh", "nowhere.obj"))
+    assert "nowhere.obj" in refused(polyshade("gallery", "--mesh", "nowhere.obj"))
+
+
 # ---- where the files go ------------------------------------------------------------------------------------------
 
 
@@ -396,6 +445,9 @@ BAD_SHAPES = [
     (["--size", "64", "--size", "8"], "--size"),  # the last one counts
     (["--mesh", "sphere", "--mesh", "nowhere.obj"], "nowhere.obj"),
     (["--form", "paper", "--form", "both"], "--form"),
+    *((["--frames", value], "--frames") for value in ("0", "-1", "3601", "2.5", "nan", "", "all")),
+    (["--scheduler", "tcp://127.0.0.1:1"], "--scheduler: is without effect on one frame"),
+    (["--frames", "2", "--lanes", "3"], "--lanes"),
     (["extra"], "extra"),
     (["--", "--size"], "--size"),
     (["--nosuch"], "--nosuch"),
@@ -441,6 +493,11 @@ BAD_COMMANDS = [
     (["bench", "--runs", "1"], "--runs"),
     (["bench", "head"], "head"),
     (["papers", "P1"], "P1"),
+    *((["gallery", "--size", value], "--size") for value in ("15", "4097", "nan", "")),
+    (["gallery", "--mesh", "nowhere.obj"], "nowhere.obj"),
+    (["gallery", "--mesh", ""], "--mesh"),
+    (["gallery", "--model", "ward"], "--model"),
+    (["gallery", "--out", ""], "--out"),
     (["synth", "nosuch"], "nosuch"),
     (["synth", ""], "no such module"),
     (["synth", "shade_third", "nosuch"], "nosuch"),
@@ -621,7 +678,7 @@ def test_a_mismatch(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> 
     beat = [int(first["input"], 16) >> 32 * word & 0xFFFFFFFF for word in range(contract.LINE_DATA_W // 32)]
     settings = frame.Settings()
     run = sim.load("shade_core", **settings.parameters).run(
-        s_axis_span_tdata=beat, writes=registers.pack(settings.registers)
+        s_axis_span_tdata=beat, **core.WHOLE, writes=registers.pack(settings.registers)
     )
     assert int(first["actual"], 16) & 0xFFFFFFFF in run.m_axis_pixel_tdata
     assert first["span"] == beat[6] >> 16

@@ -121,6 +121,15 @@ struct Job {
     uint64_t accesses;  // out: registers that were written and read
 };
 
+// All of them up to number `end`, or to the first that fails; results as of access
+int accesses(Session& s, Job& job, bool write, uint64_t end) {
+    int result = 0;
+    for (; !result && job.accesses < end; job.accesses += !result)
+        result = access(s, write, job.words[job.accesses], job.patience);
+    rest(*s.top);
+    return result;
+}
+
 // 0: done; 1: the module took no input and gave no output for `patience` clocks; 2, 3: see access, of word `accesses`
 int model_run(Job* job, void** session) {
     auto* s = new Session(job->seed, job->waves);
@@ -154,12 +163,7 @@ int model_run(Job* job, void** session) {
             s->eval();
         }
         set_reset(*s->top, 0);
-        auto accesses = [&](bool write, uint64_t end) {
-            for (; !result && job->accesses < end; job->accesses += !result)
-                result = access(*s, write, job->words[job->accesses], job->patience);
-            rest(*s->top);
-        };
-        accesses(true, job->writes);
+        result = accesses(*s, *job, true, job->writes);
         for (; !result; clock++) {
             set_clock(*s->top, 0);
             if (!offer && next < job->rows && !(job->in_gap && random.chance(job->in_gap))) {
@@ -197,7 +201,7 @@ int model_run(Job* job, void** session) {
         }
         set_in_valid(*s->top, 0);
         set_out_ready(*s->top, 0);
-        accesses(false, job->writes + job->reads);
+        if (!result) result = accesses(*s, *job, false, job->writes + job->reads);
         read_status(*s->top, s->status);
     }
     job->given = s->given.size();

@@ -108,8 +108,8 @@ def _glue(ports: list[Port]) -> str:
         return f"  for (int w = 0; w < {_words(port)}; w++) out[{index}].push_back(t.{port.name}[w]);\n"
 
     def setter(name: str, port: str | None, bits: int = 1) -> str:
-        body = f"t.{port} = v ? {(1 << bits) - 1} : 0;" if port else "(void)t; (void)v;"
-        return f"void {name}(DUT& t, bool v) {{ {body} }}\n"
+        value = "v" if bits == 1 else f"v ? {(1 << bits) - 1} : 0"
+        return f"void {name}(DUT& t, int v) {{ {f't.{port} = {value};' if port else '(void)t; (void)v;'} }}\n"
 
     def getter(name: str, port: str | None) -> str:
         return f"bool {name}(DUT& t) {{ {f'return t.{port};' if port else '(void)t; return true;'} }}\n"

@@ -63,6 +63,7 @@ BOUND = {
     "shade_gain": 2.5,  # 1/2, and the rounding of a factor of at least 1/2, in light of at most 2
     "shade_reflectance": 4.5,  # the two above together, 2^-15 of light of at most 2, and 1/2
     "shade_light": 4.5,
+    "shade_light_folded": 4.5,
     "shade_light_local": 4.5,
 }
 NEEDS_FULL = {

@@ -115,16 +115,17 @@ module shade_light_folded #(
   localparam int LINE_W = W + 2;
   localparam int PLACES = 7;
   logic signed [W-1:0] nl_limited, nl;
-  logic [LINE_W-1:0] line_q[0:PLACES-1];
-  logic nl_saturated, nl_range;
+  logic [PLACES*LINE_W-1:0] line_q;  // the oldest at the top
   logic [C_W-1:0] cosine;
   shade_limit #(.WIDTH(DOT_W), .OUT_W(W)) u_nl (.x_i(nl_q), .y_o(nl_limited));
-  assign {nl_saturated, nl_range, nl} = line_q[PLACES-1];
+  assign nl = line_q[(PLACES-1)*LINE_W+:W];
   shade_clamp u_cosine (.x_i(nl), .y_o(cosine), .clamped_o());
   always_ff @(posedge clk_i) begin
     if (phase_q == 3'd1) begin
-      line_q[0] <= {nl_q[DOT_W-1:W-1] != {(DOT_W - W + 1) {nl_q[DOT_W-1]}}, nl_q > ONE || nl_q < -ONE, nl_limited};
-      for (int i = 1; i < PLACES; i++) line_q[i] <= line_q[i-1];
+      line_q <= {
+        line_q[(PLACES-1)*LINE_W-1:0], nl_q[DOT_W-1:W-1] != {(DOT_W - W + 1) {nl_q[DOT_W-1]}},
+        nl_q > ONE || nl_q < -ONE, nl_limited
+      };
     end
   end
 
@@ -177,7 +178,7 @@ module shade_light_folded #(
   assign above   = |v_fine_q[V_W-1:F+2] || rounded[F+1];
   always_ff @(posedge clk_i) begin
     if (phase_q == 3'd3) begin
-      beside_q <= {range_late && blinn, line_q[PLACES-1]};
+      beside_q <= {range_late && blinn, line_q[PLACES*LINE_W-1-:LINE_W]};
       result_q <= beside_q;
     end
     diffuse_o                           <= result_q[W-1:0];

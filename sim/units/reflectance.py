@@ -6,6 +6,7 @@ Settings hold for a run: each has a material of its own, so that ten million vec
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -257,7 +258,9 @@ def _nodes(form: str) -> Iterator[Case]:
     """Whole nodes: each model by itself where light is directional, all in turn where it is not."""
     outputs = ("diffuse_o", "specular_o", "flags_o")
 
-    def case(module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "") -> Case:
+    def case(
+        module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "", clocks: int = 1
+    ) -> Case:
         """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs."""
 
         def golden(i: Arrays) -> Arrays:
@@ -268,7 +271,7 @@ def _nodes(form: str) -> Iterator[Case]:
 
         return Case(
             module, form, {"FORM": FORMS[form]}, golden, formula(exact_light), formula(ideal_light), vectors, None,
-            latency, chunk=chunk, note=note,
+            latency, clocks, chunk=chunk, note=note,
         )  # fmt: skip
 
     for code, name in NAMES.items():
@@ -286,6 +289,18 @@ def _nodes(form: str) -> Iterator[Case]:
             return vector(i, "n"), l, np.reshape([0, 0, ONE], (3, 1)), h, int(i["vh_i"][0]), ONE
 
         yield case("shade_light", directional, settled, k.LATENCY_LIGHT, CHUNK, name)
+        if code in (k.MODEL_LAMBERT, k.MODEL_BLINN):
+
+            def plain(rng: np.random.Generator, rows: int, code: int = code) -> Arrays:
+                left_out = ("inv_n_i", "inv_n_exp_i", "vh_i")
+                return {port: v for port, v in directional(rng, rows, code).items() if port not in left_out}
+
+            def unfolded(i: Arrays) -> Arrays:
+                return i | dict.fromkeys(("inv_n_i", "inv_n_exp_i", "vh_i"), np.zeros(1, np.int64))
+
+            folded = case("shade_light_folded", plain, settled, k.LATENCY_LIGHT_FOLDED, CHUNK, name, 6)
+            of = {part: getattr(folded, part) for part in ("golden", "exact", "ideal")}
+            yield replace(folded, **{part: lambda i, f=f: f(unfolded(i)) for part, f in of.items()})
 
     def local(rng: np.random.Generator, rows: int) -> Arrays:
         l, v = unit_vectors(rng, rows), unit_vectors(rng, rows)  # noqa: E741

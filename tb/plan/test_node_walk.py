@@ -121,7 +121,7 @@ async def walk(bench: Bench, gap: float, thrift: float) -> None:
 
 @checked()
 async def timing(bench: Bench) -> None:
-    """A node in PACE clocks and no bubble, neither between records nor between spans, LATENCY_NODE_WALK after the span."""
+    """A node in PACE clocks, no bubble between records nor between spans, LATENCY_NODE_WALK after the span."""
     if bench.parameter("CREDIT_LOG2") < 3:  # records of one node take a credit a clock
         bench.checks += 1
         return

@@ -2,6 +2,7 @@
 
 docs/head.png              the default head, every pixel out of the RTL
 docs/forms.png             P1's form and the refined one, and their errors
+docs/gallery.png           every model, energy scale and form
 docs/degrees.png           which degree the planner gives to which pixel
 docs/datapath.svg          shade_poly_span, formats and latencies from the contract
 docs/timing_poly_span.svg  its streams, from a waveform
@@ -21,7 +22,7 @@ from tqdm import tqdm
 from golden import contract as k
 from golden import poly
 from golden.material import FORMS, Material
-from scripts import svg, waves
+from scripts import gallery, svg, waves
 from scripts.papers import p1_arithmetic, p1_face
 from sim import frame
 from sim.scene.camera import Camera
@@ -43,6 +44,11 @@ def forms(path: Path) -> None:
     made = {form: frame.render(frame.Settings(camera=Camera(768), material=Material(form=form))) for form in FORMS}
     p1_face.draw_forms(path, made["paper"], made["refined"])
     Image.open(path).convert("RGB").save(path, optimize=True)
+
+
+def every_model(path: Path) -> None:
+    """The head in every model, energy scale and form."""
+    gallery.sheet(gallery.shoot("head", 256)).save(path, optimize=True)
 
 
 def degrees(path: Path) -> None:
@@ -173,6 +179,7 @@ def main() -> None:
     made = {
         "head.png": head,
         "forms.png": forms,
+        "gallery.png": every_model,
         "degrees.png": degrees,
         "datapath.svg": datapath,
         "timing_poly_span.svg": timing_poly_span,

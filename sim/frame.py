@@ -196,13 +196,8 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         "form": settings.form,
         "path": settings.path,
         "lanes": settings.lanes,
-        "model": surface.model,
-        "shininess": surface.shininess,
-        "roughness": surface.roughness,
-        "f0": surface.f0,
-        "energy": surface.energy,
-        "exposure": surface.exposure,
-        "light": " ".join(f"{part:g}" for part in settings.light),
+        **{name: _plain(value) for name, value in vars(surface).items() if name != "form"},
+        "light": _plain(settings.light),
         "triangles": len(mesh.faces),
         "repairs": mesh.repairs,
         "spans": len(spans),
@@ -223,6 +218,11 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         "versions": tools.versions(),
     }
     return Frame(settings, visible, intensity, exact, report)
+
+
+def _plain(value: float | str | tuple[float, ...]) -> float | str:
+    """As it stands in a report."""
+    return " ".join(f"{part:g}" for part in value) if isinstance(value, tuple) else value
 
 
 def errors(intensity, exact, visible) -> dict[str, float | None]:

@@ -179,6 +179,7 @@ package shade_pkg;
   localparam int LATENCY_HORNER_SEQ = 6;  // clocks a value: load and the five steps of P1, Fig. 9
   localparam int LATENCY_FDIFF = 6;  // two shifter levels, two adder levels, the state, the rounding
   localparam int LATENCY_FIFO = 2;  // memory, output register
+  localparam int LATENCY_FIFO_BLOCK = 3;  // one more
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
@@ -220,9 +221,10 @@ package shade_pkg;
   localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
-  localparam int LATENCY_RECORD = 82;  // normal to pixel
-  localparam int LATENCY_LANE = 134;
-  localparam int LATENCY_LANE_NORMALS = 125;  // the path of normals
+  localparam int LATENCY_RECORD = 83;  // normal to pixel
+  localparam int LATENCY_LANE = 136;
+  localparam int LATENCY_LANE_NORMALS = 126;  // the path of normals
+  localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 83;  // span, ..., clamp, FIFO
 

@@ -84,7 +84,7 @@ module shade_lane #(
   logic span_valid, plan_valid, walk_ready, pop;
   logic [SPAN_W-1:0] span;
   assign pop = walk_ready && plan_valid;  // a plan comes later than its span
-  shade_fifo #(.WIDTH(SPAN_W), .LOG2(SPAN_LOG2)) u_spans (
+  shade_fifo #(.WIDTH(SPAN_W), .LOG2(SPAN_LOG2), .BLOCK(1)) u_spans (
     .clk_i, .rst_i, .valid_i(accept),
     .data_i({s_axis_span_tdata[2*STEPS_W-1:0], flat, s_axis_span_tdata[shade_pkg::LINE_TAG_LSB+:TAG_W]}),
     .valid_o(span_valid), .ready_i(pop), .data_o(span), .taken_o(span_taken)
@@ -104,7 +104,7 @@ module shade_lane #(
     .exponent_i(draw_i.sharpness_exp), .fixed_degree_i(draw_i.fixed_degree), .valid_o(planned), .main_o(main),
     .log2_o(log2), .degree_o(degree), .last_count_o(last_count), .last_log2_o(last_log2), .last_degree_o(last_degree)
   );
-  shade_fifo #(.WIDTH(PLAN_W), .LOG2(SPAN_LOG2)) u_plans (
+  shade_fifo #(.WIDTH(PLAN_W), .LOG2(SPAN_LOG2), .BLOCK(1)) u_plans (
     .clk_i, .rst_i, .valid_i(planned), .data_i({main, log2, degree, last_count, last_log2, last_degree}),
     .valid_o(plan_valid), .ready_i(pop), .data_o(plan), .taken_o()
   );
@@ -227,7 +227,7 @@ module shade_lane #(
   assign meta_in = normals
     ? {2'd0, 1'b0, 1'b1, COUNT_W'(1), DEGREE_W'(shade_pkg::DEGREE_DIRECT), !pixel_last, pixel_tag}
     : {slot, shared, last, node_count, node_degree, more, node_tag};
-  shade_fifo #(.WIDTH(META_W), .LOG2(RECORD_LOG2)) u_meta (
+  shade_fifo #(.WIDTH(META_W), .LOG2(RECORD_LOG2), .BLOCK(1)) u_meta (
     .clk_i, .rst_i, .valid_i(normals ? pixel_valid && pixel_ready : node_valid), .data_i(meta_in),
     .valid_o(meta_valid), .ready_i(lit_o), .data_o(meta), .taken_o()
   );
@@ -241,7 +241,7 @@ module shade_lane #(
     .count_i(meta[TAG_W+1+DEGREE_W+:COUNT_W]), .degree_i(meta[TAG_W+1+:DEGREE_W]), .more_i(meta[TAG_W]),
     .tag_i(meta[TAG_W-1:0]), .valid_o(record_valid), .record_o(record)
   );
-  shade_fifo #(.WIDTH(shade_pkg::SPAN_DATA_W), .LOG2(RECORD_LOG2)) u_records (
+  shade_fifo #(.WIDTH(shade_pkg::SPAN_DATA_W), .LOG2(RECORD_LOG2), .BLOCK(1)) u_records (
     .clk_i, .rst_i, .valid_i(record_valid), .data_i(record), .valid_o(waiting), .ready_i(record_ready),
     .data_o(next), .taken_o(record_taken)
   );

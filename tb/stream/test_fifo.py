@@ -9,7 +9,7 @@ from tb.bench import PRESSURE, Bench, Sink, checked, no_path, scramble
 from tb.runner import points, simulate
 
 
-@points({}, {"LOG2": 1, "WIDTH": 8})
+@points({}, {"LOG2": 1, "WIDTH": 8}, {"BLOCK": 1}, {"LOG2": 1, "BLOCK": 1})
 def test_cocotb(point):
     simulate("shade_fifo", point)
 
@@ -79,7 +79,8 @@ async def traffic(bench: Bench, gap: float, stall: float) -> None:
 
 @checked()
 async def latency(bench: Bench) -> None:
-    """A word that finds the FIFO empty shows after LATENCY_FIFO clocks; a word a clock goes through."""
+    """A word that finds the FIFO empty shows after the latency; a word a clock goes through."""
+    latency = k.LATENCY_FIFO_BLOCK if bench.parameter("BLOCK") else k.LATENCY_FIFO
     writer, sink = setup(bench, 0.0)
     words = some_words(bench, 100)
     for word in words:
@@ -87,7 +88,7 @@ async def latency(bench: Bench) -> None:
         await bench.tick(random.randrange(4, 8))
     await read_back(bench, sink, words)
     for index, (written, read) in enumerate(zip(writer.clocks, sink.clocks, strict=True)):
-        bench.equal(read - written, k.LATENCY_FIFO, f"latency of word {index}")
+        bench.equal(read - written, latency, f"latency of word {index}")
 
 
 @checked()

@@ -225,6 +225,7 @@ package shade_pkg;
   localparam int LATENCY_LANE = 136;
   localparam int LATENCY_LANE_NORMALS = 126;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
+  localparam int LATENCY_CORE = 137;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 83;  // span, ..., clamp, FIFO
 

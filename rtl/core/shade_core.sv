@@ -17,7 +17,7 @@
 // coefficients, the third and the versine). REFLECT = 0, DIVIDE = 0, PATH_NORMALS = 0 leave models and a path out;
 // FOLD = 6 then shares multipliers, see shade_lane.
 // No combinational path from an input to an output port. One pixel a clock and lane where light keeps up: at most one
-// node a clock and lane. Latency of a first pixel: LATENCY_LANE, COLOUR = 1: LATENCY_PAINT more. Source: P1 to P4.
+// node a clock and lane. Latency of a first pixel: LATENCY_CORE, COLOUR = 1: LATENCY_PAINT more. Source: P1 to P4.
 // Example: see the README, "In your design".
 module shade_core #(
   parameter int LANES        = 1,
@@ -79,6 +79,8 @@ module shade_core #(
   // ---- the door: what is faulty stays outside ---------------------------------------------------------------------
   logic [COUNT_W-1:0] count;
   logic inside_packet_q, change, clear, hold, take, whole, empty, long_span, good;
+  logic door_valid_q, leave;
+  logic [shade_pkg::LINE_DATA_W-1:0] door_q;  // a good span on its way to its lane
   logic [LANES-1:0] ready;
   logic [TURN_W-1:0] turn_q;
   assign count              = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
@@ -87,7 +89,8 @@ module shade_core #(
   assign long_span          = count > COUNT_W'(shade_pkg::PIXELS_MAX);
   assign good               = whole && !empty && !long_span;
   assign hold               = change || clear;
-  assign s_axis_span_tready = ready[turn_q] && !hold;  // a span sees one set of settings all its way
+  assign s_axis_span_tready = (!door_valid_q || leave) && !hold;  // a span sees one set of settings all its way
+  assign leave              = ready[turn_q];
   assign take               = s_axis_span_tvalid && s_axis_span_tready;
 
   // faults of path normals that do not stop a span: see shade_pixel_normals
@@ -101,7 +104,11 @@ module shade_core #(
 
   logic spans_q, errors_q, empty_q, long_q, packet_q, metric_q, threshold_q;
   always_ff @(posedge clk_i) begin
-    if (take && good) turn_q <= turn_q == TURN_W'(LANES - 1) ? '0 : turn_q + TURN_W'(1);
+    if (!door_valid_q || leave) begin
+      door_q       <= s_axis_span_tdata;
+      door_valid_q <= take && good;
+    end
+    if (door_valid_q && leave) turn_q <= turn_q == TURN_W'(LANES - 1) ? '0 : turn_q + TURN_W'(1);
     if (take) inside_packet_q <= !s_axis_span_tlast;
     spans_q     <= take && good;
     errors_q    <= take && !good && !inside_packet_q;
@@ -112,6 +119,7 @@ module shade_core #(
     threshold_q <= take && threshold;
     if (clear) turn_q <= '0;
     if (rst_i) begin
+      door_valid_q    <= 1'b0;
       turn_q          <= '0;
       inside_packet_q <= 1'b0;
       {spans_q, errors_q, packet_q, empty_q, long_q, metric_q, threshold_q} <= '0;
@@ -125,12 +133,13 @@ module shade_core #(
     logic enter, valid, last, taken;
     logic [PIXEL_W-1:0] pixel;
     logic [TAG_W-1:0] tag;
-    assign enter = s_axis_span_tvalid && good && !hold && turn_q == TURN_W'(i);
+    assign enter = door_valid_q && turn_q == TURN_W'(i);
     shade_lane #(
       .EVALUATOR(EVALUATOR), .FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS),
       .FOLD(FOLD)
     ) u_lane (
-      .clk_i, .rst_i, .draw_i(draw), .s_axis_span_tvalid(enter), .s_axis_span_tready(ready[i]), .s_axis_span_tdata,
+      .clk_i, .rst_i, .draw_i(draw), .s_axis_span_tvalid(enter), .s_axis_span_tready(ready[i]),
+      .s_axis_span_tdata(door_q),
       .m_axis_pixel_tvalid(valid), .m_axis_pixel_tready(taken), .m_axis_pixel_tdata(pixel),
       .m_axis_pixel_tuser(tag), .m_axis_pixel_tlast(last), .lit_o(lit[i]),
       .flags_o(flags[i*shade_pkg::LANE_FLAGS_W+:shade_pkg::LANE_FLAGS_W])
@@ -212,7 +221,7 @@ module shade_core #(
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(|busy),
+    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(|busy || door_valid_q),
     .events_i(events),
     .pixels_i(pixels_q), .spans_i({2'b00, spans_q}), .stalls_i(stalls_q), .evaluations_i(evaluations_q),
     .errors_i({2'b00, errors_q})

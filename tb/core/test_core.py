@@ -199,7 +199,8 @@ class Core:
         """Clocks from a span of one pixel to its pixel."""
         parameter, path = self.bench.parameter, self.draw["path"] == k.PATH_NORMALS
         wanted = k.LATENCY_LANE_NORMALS if path and parameter("PATH_NORMALS") else k.LATENCY_LANE
-        return wanted - (not parameter("REFLECT")) * k.LATENCY_REFLECT + parameter("COLOUR") * k.LATENCY_PAINT
+        door = k.LATENCY_CORE - k.LATENCY_LANE
+        return door + wanted - (not parameter("REFLECT")) * k.LATENCY_REFLECT + parameter("COLOUR") * k.LATENCY_PAINT
 
 
 def any_settings(bench: Bench, code: int, path: int) -> dict[str, int]:

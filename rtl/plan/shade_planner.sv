@@ -45,6 +45,10 @@ module shade_planner #(
   output logic        [         shade_pkg::LOG2_W-1:0] last_log2_o,
   output logic        [       shade_pkg::DEGREE_W-1:0] last_degree_o
 );
+  if (FOLD != 1 && FOLD != 6) begin : g_check
+    $error("shade_planner: FOLD must be 1 or 6");
+  end
+
   localparam int COUNT_W = shade_pkg::COUNT_W;
   localparam int KAPPA_W = shade_pkg::KAPPA_W;
   localparam int LOG2_W = shade_pkg::LOG2_W;

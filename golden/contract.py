@@ -82,6 +82,7 @@ LOBE_K2_F = 17  # k2 of the shifted x, S0.17
 LOBE_K2_W = 18
 LOBE_X_F = 16  # the shifted x and xmax, U1.16
 LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 6
+LOBE_POWER_W = 3  # squarings, 0 .. 4; more count as 4
 LOBE_FINE = 7  # this shift means: x as it is, k1 and k2 times 4
 LOBE_FINE_F = 2  # that 4 is 2^2
 LOBE_S_F = 17  # k1 - k2 x of the shifted x, U1.17

@@ -30,6 +30,8 @@ RANGES = {
     "colour": (0.0, 1.0),
     "highlight": (0.0, 1.0),
 }
+STAGES = 4  # squarings of the lobe at most
+EXACT = 1e-9  # an error of the fit that is none
 ENERGY_MARGIN = 1 / 4096  # what quantization may add to a lobe's energy, so that it never exceeds 1
 FRESNEL_MIN = 1 / 256  # automatic exposure makes up for no less, nor for a V.H below HALF_MIN
 HALF_MIN = 1 / 16
@@ -105,8 +107,8 @@ class Material:
         return self.exposure * (scale if original else scale / _excess(self.energy, self.shininess))
 
     @property
-    def lobe(self) -> tuple[float, float, float] | None:
-        """(k1, k2, xmax) of the lobe that stands for the highlight; None where it is not of that kind."""
+    def lobe(self) -> tuple[float, float, float, int] | None:
+        """(k1, k2, xmax, power) of the lobe that stands for the highlight; None where it is not of that kind."""
         has_lobe = self.model not in ("lambert", "schlick")
         return fit(self.model, self.shininess, self.roughness, self.form) if has_lobe else None
 
@@ -153,34 +155,37 @@ def shape(model: str, x: ArrayLike, shininess: float, roughness: float) -> refer
 
 @cache
 def fit(
-    model: str, shininess: float = 1, roughness: float = 0.3, form: str = "refined", power: int = 4
-) -> tuple[float, float, float]:
-    """(k1, k2, xmax) of the lobe max(0, 1 - k1 x + k2 x^2)^(2^power), x = min(1 - c, xmax), for a model's highlight.
+    model: str, shininess: float = 1, roughness: float = 0.3, form: str = "refined", stages: int = STAGES
+) -> tuple[float, float, float, int]:
+    """(k1, k2, xmax, power) of max(0, 1 - k1 x + k2 x^2)^(2^power), x = min(1 - c, xmax), for a model's highlight.
 
-    paper: what P1 and P3 print, k2 = 0. refined: the least maximal error over the whole lobe, by Remez' exchange on a
-    grid: Newton's step to an error of equal size and alternating sign at three points, then the extremes of the new
-    error are the points. Beyond the vertex of a parabola that opens upwards x stays: xmax = k1 / (2 k2); no limit is 1.
-    k1 stays >= 0.
+    paper: what P1 and P3 print, k2 = 0, power = ``stages``. refined: the least maximal error over the whole lobe of all
+    powers 0 .. ``stages``; of several exact ones the highest. Each by Remez' exchange on a grid: Newton's step to an
+    error of equal size and alternating sign at three points, then the extremes of the new error are the points. Beyond
+    the vertex of a parabola that opens upwards x stays: xmax = k1 / (2 k2); no limit is 1. k1 stays >= 0.
 
     >>> fit("blinn", 64, form="paper")
-    (4.0, 0.0, 1.0)
+    (4.0, 0.0, 1.0, 4)
     >>> [round(value, 3) for value in fit("blinn", 64)]
-    [3.998, 5.768, 0.347]
+    [3.998, 5.768, 0.347, 4]
     """
-    p = 1 << power
     exponent = {"cook-torrance": 2 / roughness**2 - 4, "ward": 2 / roughness**2}.get(model, shininess)
     if form == "paper":
-        return exponent / p, 0.0, 1.0
+        return exponent / 2**stages, 0.0, 1.0, stages
     x = np.linspace(0, min(1, 24 / max(exponent, 1)), 4097)[1:]  # beyond it the lobe is below exp(-24)
     target = shape(model, x, shininess, roughness)
-    k1, k2 = _minimax(x, target, p, [0, 1])
-    if k1 < 0:
-        k1, k2 = _minimax(x, target, p, [1])
-    return k1, k2, min(1.0, k1 / (2 * k2)) if k2 > 0 else 1.0
+    fits = []
+    for power in range(stages + 1):
+        error, k1, k2 = _minimax(x, target, 1 << power, [0, 1])
+        if k1 < 0:
+            error, k1, k2 = _minimax(x, target, 1 << power, [1])
+        fits.append((max(error, EXACT), -power, k1, k2))
+    _, minus_power, k1, k2 = min(fits)
+    return k1, k2, min(1.0, k1 / (2 * k2)) if k2 > 0 else 1.0, -minus_power
 
 
-def _minimax(x: reference.Floats, target: reference.Floats, p: int, free: list[int]) -> tuple[float, float]:
-    """k1, k2 (those that are ``free``; others 0) of the least maximal error of (1 - k1 x + k2 x^2)^p."""
+def _minimax(x: reference.Floats, target: reference.Floats, p: int, free: list[int]) -> tuple[float, float, float]:
+    """The least maximal error of (1 - k1 x + k2 x^2)^p with its k1, k2: those that are ``free``; others 0."""
     at = [int(np.abs(target - value).argmin()) for value in (0.45, 0.05)[: len(free)]]
     k12, best = np.zeros(2), (np.inf, 0.0, 0.0)
     k12[free] = np.linalg.solve(_powers(x[at], k12)[:, free], target[at] ** (1 / p) - 1)  # no error at these points
@@ -193,12 +198,12 @@ def _minimax(x: reference.Floats, target: reference.Floats, p: int, free: list[i
         runs = np.split(np.arange(len(x)), np.flatnonzero(np.diff(error > 0)) + 1)
         peaks = np.array([run[np.abs(error[run]).argmax()] for run in runs])
         spare = len(peaks) - len(free)
-        if largest < 1e-9 or spare <= 0:
+        if largest < EXACT or spare <= 0:
             break
         at = max((peaks[i : i + len(free) + 1] for i in range(spare)), key=lambda at: np.abs(error[at]).min())
         slopes = p * base[at, None] ** (p - 1) * powers[at][:, free]
         k12[free] += np.linalg.solve(np.column_stack([slopes, -np.sign(error[at])]), -error[at])[:-1]
-    return best[1:]
+    return best
 
 
 def _powers(x: reference.Floats, k12: reference.Floats) -> reference.Floats:
@@ -219,14 +224,14 @@ def _excess(row: str, n: float) -> float:
     return max(energy, 1.0) * (1 + ENERGY_MARGIN)
 
 
-def lobe_registers(k1: float, k2: float, xmax: float) -> dict[str, int]:
-    """k1, k2, xmax, shift of ``shade_lobe``: X = x 2^shift, K1 = k1 / 2^shift, K2 = k2 / 4^shift.
+def lobe_registers(k1: float, k2: float, xmax: float, power: int) -> dict[str, int]:
+    """k1, k2, shift, xmax, power of ``shade_lobe``: X = x 2^shift, K1 = k1 / 2^shift, K2 = k2 / 4^shift.
 
     The first of LOBE_FINE (X = x, K1 = 4 k1, K2 = 4 k2), 0, 1, .. 6 by which K1 < 2, |K2| < 1 and K1 - K2 X < 2 up to
     the largest X, U1.16. ValueError where there is none.
 
-    >>> lobe_registers(2, 1, 1)  # n = 32: K1 = 1, K2 = 1/4, X < 2
-    {'k1': 1048576, 'k2': 32768, 'xmax': 131071, 'shift': 1}
+    >>> lobe_registers(2, 1, 1, 4)  # n = 32: K1 = 1, K2 = 1/4, X < 2
+    {'k1': 1048576, 'k2': 32768, 'shift': 1, 'xmax': 131071, 'power': 4}
     """
     fine = 2**k.LOBE_FINE_F
     scales = {k.LOBE_FINE: (1, fine, fine)} | {i: (2**i, 2**-i, 4**-i) for i in range(k.LOBE_FINE)}
@@ -235,7 +240,7 @@ def lobe_registers(k1: float, k2: float, xmax: float) -> dict[str, int]:
         codes = _fixed(k1 * for_k1, k.LOBE_K1_F), _fixed(k2 * for_k2, k.LOBE_K2_F)
         steepest = codes[0] / 2**k.LOBE_K1_F - min(codes[1], 0) / 2**k.LOBE_K2_F * largest / 2**k.LOBE_X_F
         if steepest < 2 and abs(codes[1]) < 1 << k.LOBE_K2_F:
-            return {"k1": codes[0], "k2": codes[1], "xmax": largest, "shift": shift}
+            return {"k1": codes[0], "k2": codes[1], "shift": shift, "xmax": largest, "power": power}
     raise ValueError(f"k1, k2: {k1:g}, {k2:g} are out of range, allowed is k1 / 64 < 2, |k2| / 4096 < 1")
 
 
@@ -246,8 +251,8 @@ def registers(material: Material, light: ArrayLike | None = None) -> dict[str, i
     added (``shade_light``). None: light and viewer of every point (``shade_light_local``).
 
     >>> words = registers(Material(shininess=64), (0, 0, 1))
-    >>> [words[name] for name in ("model", "k1", "k2", "xmax", "shift", "gain", "gain_exp")]
-    [2, 1047945, 47254, 90837, 2, 65536, 0]
+    >>> [words[name] for name in ("model", "k1", "k2", "shift", "xmax", "power", "gain", "gain_exp")]
+    [2, 1047945, 47254, 2, 90837, 4, 65536, 0]
     """
     inv_n_exp = floor(log2(material.shininess))
     inv_n = _fixed(2**inv_n_exp / material.shininess)
@@ -258,7 +263,7 @@ def registers(material: Material, light: ArrayLike | None = None) -> dict[str, i
     words = {
         "model": MODELS[material.model],
         "cosine": int(material.cosine),
-        **lobe_registers(*material.lobe or (0, 0, 1)),
+        **lobe_registers(*material.lobe or (0, 0, 1, STAGES)),
     }
     words |= {"inv_n": inv_n, "inv_n_exp": inv_n_exp, "f0": _fixed(f0)}
     if light is not None:

@@ -183,6 +183,7 @@ GROUPS: dict[str, tuple[Register, ...]] = {
                 f"x is scaled by 2^shift; {k.LOBE_FINE}: not, but k1 and k2 are by {1 << k.LOBE_FINE_F}",
                 lsb=24,
             ),
+            Field("power", k.LOBE_POWER_W, "squarings of the lobe, 0 to 4; more count as 4", lsb=28, reset=4),
         ),
         INV_N=(
             Field("inv_n", 17, "Schlick: 1/n, mantissa", "U1.16"),

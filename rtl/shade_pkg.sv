@@ -100,6 +100,7 @@ package shade_pkg;
   localparam int LOBE_K2_W = 18;
   localparam int LOBE_X_F = 16;  // the shifted x and xmax, U1.16
   localparam int LOBE_SHIFT_W = 3;  // x is shifted left by 0 .. 6
+  localparam int LOBE_POWER_W = 3;  // squarings, 0 .. 4; more count as 4
   localparam int LOBE_FINE = 7;  // this shift means: x as it is, k1 and k2 times 4
   localparam int LOBE_FINE_F = 2;  // that 4 is 2^2
   localparam int LOBE_S_F = 17;  // k1 - k2 x of the shifted x, U1.17
@@ -301,6 +302,8 @@ package shade_pkg;
   localparam int REG_K2 = 136;  // 0x088, rw
   localparam int REG_XMAX = 140;  // 0x08c, rw
   localparam int REG_XMAX_SHIFT_LSB = 24;
+  localparam int REG_XMAX_POWER_LSB = 28;
+  localparam int REG_XMAX_RESET = 1073741824;  // 0x40000000
   localparam int REG_INV_N = 144;  // 0x090, rw
   localparam int REG_INV_N_INV_N_EXP_LSB = 24;
   localparam int REG_GAIN = 148;  // 0x094, rw
@@ -350,6 +353,7 @@ package shade_pkg;
     logic signed [17:0] k2;
     logic [16:0] xmax;
     logic [2:0] shift;
+    logic [2:0] power;
     logic [16:0] inv_n;
     logic [3:0] inv_n_exp;
     logic [16:0] gain;
@@ -389,6 +393,7 @@ package shade_pkg;
     18'd0,  // k2
     17'd0,  // xmax
     3'd0,  // shift
+    3'd4,  // power
     17'd0,  // inv_n
     4'd0,  // inv_n_exp
     17'd0,  // gain
@@ -537,22 +542,23 @@ package shade_pkg;
     draw_word[24+:6] |= {6{select[17]}} & draw[295+:6];  // gain_exp
     draw_word[0+:17] |= {17{select[18]}} & draw[322+:17];  // inv_n
     draw_word[24+:4] |= {4{select[18]}} & draw[318+:4];  // inv_n_exp
-    draw_word[0+:17] |= {17{select[19]}} & draw[342+:17];  // xmax
-    draw_word[24+:3] |= {3{select[19]}} & draw[339+:3];  // shift
-    draw_word[0+:18] |= {18{select[20]}} & draw[359+:18];  // k2
-    draw_word[0+:21] |= {21{select[21]}} & draw[377+:21];  // k1
-    draw_word[0+:3] |= {3{select[22]}} & draw[399+:3];  // model
-    draw_word[8+:1] |= {1{select[22]}} & draw[398+:1];  // cosine
-    draw_word[0+:18] |= {18{select[23]}} & draw[402+:18];  // threshold
-    draw_word[0+:31] |= {31{select[24]}} & draw[420+:31];  // t3
-    draw_word[0+:31] |= {31{select[25]}} & draw[451+:31];  // t2
-    draw_word[0+:31] |= {31{select[26]}} & draw[482+:31];  // t1
-    draw_word[0+:17] |= {17{select[27]}} & draw[517+:17];  // sharpness
-    draw_word[24+:4] |= {4{select[27]}} & draw[513+:4];  // sharpness_exp
-    draw_word[0+:1] |= {1{select[35]}} & draw[540+:1];  // path
-    draw_word[1+:1] |= {1{select[35]}} & draw[539+:1];  // colour
-    draw_word[4+:3] |= {3{select[35]}} & draw[536+:3];  // variant
-    draw_word[8+:2] |= {2{select[35]}} & draw[534+:2];  // fixed_degree
+    draw_word[0+:17] |= {17{select[19]}} & draw[345+:17];  // xmax
+    draw_word[24+:3] |= {3{select[19]}} & draw[342+:3];  // shift
+    draw_word[28+:3] |= {3{select[19]}} & draw[339+:3];  // power
+    draw_word[0+:18] |= {18{select[20]}} & draw[362+:18];  // k2
+    draw_word[0+:21] |= {21{select[21]}} & draw[380+:21];  // k1
+    draw_word[0+:3] |= {3{select[22]}} & draw[402+:3];  // model
+    draw_word[8+:1] |= {1{select[22]}} & draw[401+:1];  // cosine
+    draw_word[0+:18] |= {18{select[23]}} & draw[405+:18];  // threshold
+    draw_word[0+:31] |= {31{select[24]}} & draw[423+:31];  // t3
+    draw_word[0+:31] |= {31{select[25]}} & draw[454+:31];  // t2
+    draw_word[0+:31] |= {31{select[26]}} & draw[485+:31];  // t1
+    draw_word[0+:17] |= {17{select[27]}} & draw[520+:17];  // sharpness
+    draw_word[24+:4] |= {4{select[27]}} & draw[516+:4];  // sharpness_exp
+    draw_word[0+:1] |= {1{select[35]}} & draw[543+:1];  // path
+    draw_word[1+:1] |= {1{select[35]}} & draw[542+:1];  // colour
+    draw_word[4+:3] |= {3{select[35]}} & draw[539+:3];  // variant
+    draw_word[8+:2] |= {2{select[35]}} & draw[537+:2];  // fixed_degree
   endfunction
 
   // the settings after a word was written to those that are selected
@@ -579,22 +585,23 @@ package shade_pkg;
     if (select[17]) draw_written[295+:6] = word[24+:6];  // gain_exp
     if (select[18]) draw_written[322+:17] = word[0+:17];  // inv_n
     if (select[18]) draw_written[318+:4] = word[24+:4];  // inv_n_exp
-    if (select[19]) draw_written[342+:17] = word[0+:17];  // xmax
-    if (select[19]) draw_written[339+:3] = word[24+:3];  // shift
-    if (select[20]) draw_written[359+:18] = word[0+:18];  // k2
-    if (select[21]) draw_written[377+:21] = word[0+:21];  // k1
-    if (select[22]) draw_written[399+:3] = word[0+:3];  // model
-    if (select[22]) draw_written[398+:1] = word[8+:1];  // cosine
-    if (select[23]) draw_written[402+:18] = word[0+:18];  // threshold
-    if (select[24]) draw_written[420+:31] = word[0+:31];  // t3
-    if (select[25]) draw_written[451+:31] = word[0+:31];  // t2
-    if (select[26]) draw_written[482+:31] = word[0+:31];  // t1
-    if (select[27]) draw_written[517+:17] = word[0+:17];  // sharpness
-    if (select[27]) draw_written[513+:4] = word[24+:4];  // sharpness_exp
-    if (select[35]) draw_written[540+:1] = word[0+:1];  // path
-    if (select[35]) draw_written[539+:1] = word[1+:1];  // colour
-    if (select[35]) draw_written[536+:3] = word[4+:3];  // variant
-    if (select[35]) draw_written[534+:2] = word[8+:2];  // fixed_degree
+    if (select[19]) draw_written[345+:17] = word[0+:17];  // xmax
+    if (select[19]) draw_written[342+:3] = word[24+:3];  // shift
+    if (select[19]) draw_written[339+:3] = word[28+:3];  // power
+    if (select[20]) draw_written[362+:18] = word[0+:18];  // k2
+    if (select[21]) draw_written[380+:21] = word[0+:21];  // k1
+    if (select[22]) draw_written[402+:3] = word[0+:3];  // model
+    if (select[22]) draw_written[401+:1] = word[8+:1];  // cosine
+    if (select[23]) draw_written[405+:18] = word[0+:18];  // threshold
+    if (select[24]) draw_written[423+:31] = word[0+:31];  // t3
+    if (select[25]) draw_written[454+:31] = word[0+:31];  // t2
+    if (select[26]) draw_written[485+:31] = word[0+:31];  // t1
+    if (select[27]) draw_written[520+:17] = word[0+:17];  // sharpness
+    if (select[27]) draw_written[516+:4] = word[24+:4];  // sharpness_exp
+    if (select[35]) draw_written[543+:1] = word[0+:1];  // path
+    if (select[35]) draw_written[542+:1] = word[1+:1];  // colour
+    if (select[35]) draw_written[539+:3] = word[4+:3];  // variant
+    if (select[35]) draw_written[537+:2] = word[8+:2];  // fixed_degree
   endfunction
 
   // the word STATUS

@@ -188,10 +188,10 @@ module shade_lane #(
   if (FOLD == 1) begin : g_light
     shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
       .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
-      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .inv_n_i(draw_i.inv_n), .inv_n_exp_i(draw_i.inv_n_exp),
-      .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp), .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz),
-      .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz), .vh_i(draw_i.vh),
-      .valid_i(dark_valid), .nx_i(normal[0+:W]), .ny_i(normal[W+:W]), .nz_i(normal[2*W+:W]),
+      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .power_i(draw_i.power), .inv_n_i(draw_i.inv_n),
+      .inv_n_exp_i(draw_i.inv_n_exp), .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp),
+      .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz), .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz),
+      .vh_i(draw_i.vh), .valid_i(dark_valid), .nx_i(normal[0+:W]), .ny_i(normal[W+:W]), .nz_i(normal[2*W+:W]),
       .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
     );
     localparam int LATENCY = shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
@@ -210,7 +210,8 @@ module shade_lane #(
     end
     shade_light_folded #(.FORM(FORM)) u_light (
       .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
-      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp),
+      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .power_i(draw_i.power), .gain_i(draw_i.gain),
+      .gain_exp_i(draw_i.gain_exp),
       .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz), .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz),
       .valid_i(valid), .ready_o(), .nx_i(n[0+:W]), .ny_i(n[W+:W]), .nz_i(n[2*W+:W]),
       .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)

@@ -22,6 +22,7 @@ module shade_light #(
   input  logic signed [  shade_pkg::LOBE_K2_W-1:0] k2_i,
   input  logic        [shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
   input  logic        [     shade_pkg::LOBE_X_F:0] xmax_i,
+  input  logic        [shade_pkg::LOBE_POWER_W-1:0] power_i,
   input  logic        [  shade_pkg::INTENSITY_F:0] inv_n_i,      // Schlick: 1/n = inv_n 2^-inv_n_exp, U1.16 in (1/2, 1]
   input  logic        [  shade_pkg::INV_EXP_W-1:0] inv_n_exp_i,
   input  logic        [       shade_pkg::GAIN_F:0] gain_i,       // U1.16 in [1, 2), or 0
@@ -48,8 +49,8 @@ module shade_light #(
   localparam logic [3*W-1:0] V = {1'b0, ONE, {(2 * W) {1'b0}}};
 
   shade_reflectance #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_reflectance (
-    .clk_i, .rst_i, .model_i, .cosine_i, .k1_i, .k2_i, .shift_i, .xmax_i, .inv_n_i, .inv_n_exp_i, .gain_i, .gain_exp_i,
-    .valid_i, .n_i({nz_i, ny_i, nx_i}), .l_i({lz_i, ly_i, lx_i}), .v_i(V),
+    .clk_i, .rst_i, .model_i, .cosine_i, .k1_i, .k2_i, .shift_i, .xmax_i, .power_i, .inv_n_i, .inv_n_exp_i, .gain_i,
+    .gain_exp_i, .valid_i, .n_i({nz_i, ny_i, nx_i}), .l_i({lz_i, ly_i, lx_i}), .v_i(V),
     .h_i({hz_i, hy_i, hx_i}), .vh_i, .fresnel_i(ONE), .valid_o, .diffuse_o, .specular_o, .flags_o
   );
 endmodule

@@ -20,6 +20,7 @@ module shade_light_folded #(
   input  logic signed [    shade_pkg::LOBE_K2_W-1:0] k2_i,
   input  logic        [ shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
   input  logic        [       shade_pkg::LOBE_X_F:0] xmax_i,
+  input  logic        [ shade_pkg::LOBE_POWER_W-1:0] power_i,
   input  logic        [         shade_pkg::GAIN_F:0] gain_i,
   input  logic signed [   shade_pkg::GAIN_EXP_W-1:0] gain_exp_i,
   input  logic signed [  shade_pkg::INTENSITY_W-1:0] lx_i,
@@ -132,7 +133,8 @@ module shade_light_folded #(
   // ---- lobe: taken in clock 12, given in clock 12 + LATENCY_LOBE_FOLDED = 45 -------------------------------------
   logic [C_W-1:0] lobe;
   shade_lobe #(.FOLD(6)) u_lobe (
-    .clk_i, .rst_i, .valid_i(1'b1), .ready_o(), .x_i(x_q), .k1_i, .k2_i, .shift_i, .xmax_i, .valid_o(), .lobe_o(lobe)
+    .clk_i, .rst_i, .valid_i(1'b1), .ready_o(), .x_i(x_q), .k1_i, .k2_i, .shift_i, .xmax_i, .power_i, .valid_o(),
+    .lobe_o(lobe)
   );
   logic range_late;
   localparam int RANGE_PLACES = 6;

@@ -1,4 +1,4 @@
-// shade_lobe: max(0, 1 - k1 x + k2 x^2)^(2^POWER), the highlight of every model, over x = 1 - c, the versine of an angle.
+// shade_lobe: max(0, 1 - k1 x + k2 x^2)^(2^power), the highlight of every model, over x = 1 - c, the versine of an angle.
 //
 //   x_i      dd.ffff f         U2.20   1 - c; beyond 1 (c < 0) the lobe is 0
 //   shift_i  0 .. 6                    X = min(x 2^shift, xmax), U1.16, is what k1 and k2 belong to:
@@ -6,24 +6,25 @@
 //   k2_i      s.ffff           S0.17   k2 / 4^shift; 0 is the form of P1 and P3
 //   xmax_i    d.ffff           U1.16   where a parabola that opens upwards has its vertex, k1 / (2 k2)
 //   shift_i  7 (LOBE_FINE)             X = min(x, xmax), k1_i and k2_i are 4 k1 and 4 k2, below 2 and 1
+//   power_i  0 .. POWER                squarings; more count as POWER
 //   lobe_o    d.ffff           U1.16   in [0, 1]
 //
 //   s = k1 - k2 X      U1.17, limited
-//   y = s X            U1.22, limited to 1: 1 - base; then POWER times y <- 1 - (1 - y)^2:
+//   y = s X            U1.22, limited to 1: 1 - base; then power times y <- 1 - (1 - y)^2:
 //   z = y or 1 - y     whichever is below 1/2, 17 fraction bits and the middle of what is cut; 1 - y as ones' complement
-//   y = 2 y - z^2, from 1/2 on 1 - z^2
+//   y = 2 y - z^2, from 1/2 on 1 - z^2; a stage that is not needed takes y - 0, in the same clocks
 //
-// Near the peak of the lobe y is small, and so is its error, which the power multiplies by 2^POWER. Roundings to
-// nearest, ties up; within 1.6 ulp of the formula with k1 and k2 before they became registers. n = 1 .. 1024, with
-// POWER less than 4 up to 96 2^POWER.
+// Near the peak of the lobe y is small, and so is its error, which the power multiplies by 2^power. Roundings to
+// nearest, ties up; within 1.6 ulp of the formula with k1 and k2 before they became registers, 1.25 for refined fits.
+// n = 1 .. 1024, with POWER, the stages that are built, less than 4 up to 96 2^POWER.
 //
-// k1_i, k2_i, xmax_i, shift_i must stay as they are while values are in flight.
+// k1_i, k2_i, xmax_i, shift_i, power_i must stay as they are while values are in flight.
 //
 // FOLD = 1: a value a clock; four 18 x 18 multipliers, and a shade_square_fabric for every squaring behind the second.
 //           Latency LATENCY_LOBE = 31 clocks, 6 fewer for each POWER less than 4; ready_o is 1.
 // FOLD = 6: one multiplier, a loop of five clocks a product; values start six clocks apart and never meet in it. ready_o
 //           is 1 in every sixth clock. Latency LATENCY_LOBE_FOLDED = 33 clocks, 5 fewer for each POWER less than 4.
-// The bits are the same. Example: n = 32, k1 = 2, k2 = 1 (shift 1: 1, 1/4), x = 1/8 -> (7/8)^32 = 0.01395.
+// The bits are the same. Example: n = 32, power 4, k1 = 2, k2 = 1 (shift 1: 1, 1/4), x = 1/8 -> (7/8)^32 = 0.01395.
 // Source: P1, section III (D4, D8, D16), P3.
 module shade_lobe #(
   parameter int POWER = 4,
@@ -38,6 +39,7 @@ module shade_lobe #(
   input  logic signed [   shade_pkg::LOBE_K2_W-1:0] k2_i,
   input  logic        [shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
   input  logic        [      shade_pkg::LOBE_X_F:0] xmax_i,
+  input  logic        [shade_pkg::LOBE_POWER_W-1:0] power_i,
   output logic                                      valid_o,
   output logic        [   shade_pkg::INTENSITY_F:0] lobe_o
 );
@@ -104,20 +106,20 @@ module shade_lobe #(
     base = dark ? Y_W'(1) << Y_F : fine ? y >> shade_pkg::LOBE_FINE_F : y;
   endfunction
 
-  // z, and what z^2 is taken from: 2 y or 1
+  // z, and what z^2 is taken from: 2 y or 1; without squaring z is its last bit, too small to count, and y stays
   localparam int Z_F = shade_pkg::LOBE_Z_F;
   localparam int Z_W = Z_F - 1;
-  function automatic logic [Z_W-1:0] low(input logic [Y_W-1:0] y);
+  function automatic logic [Z_W-1:0] low(input logic [Y_W-1:0] y, input logic squared);
     logic one, high;
     one  = |y[Y_W-1:Y_F];
     high = one || y[Y_F-1];
-    low  = {(y[Y_F-2-:Z_W-1] ^ {(Z_W - 1) {high}}) & {(Z_W - 1) {!one}}, 1'b1};
+    low  = {(y[Y_F-2-:Z_W-1] ^ {(Z_W - 1) {high}}) & {(Z_W - 1) {squared && !one}}, 1'b1};
   endfunction
 
-  function automatic logic [A_W-1:0] minuend(input logic [Y_W-1:0] y);
-    logic high;
-    high    = |y[Y_W-1:Y_F-1];
-    minuend = {high, y[Y_F-2:0] & {(Y_F - 1) {!high}}, 1'b0};
+  function automatic logic [A_W-1:0] minuend(input logic [Y_W-1:0] y, input logic squared);
+    logic one;
+    one     = |y[Y_W-1:Y_F] || (squared && y[Y_F-1]);
+    minuend = {one, (squared ? {y[Y_F-2:0], 1'b0} : y[Y_F-1:0]) & {Y_F{!one}}};
   endfunction
 
   // a - z^2, to nearest; z^2 is odd, so that there are no ties and its first dropped bit does it
@@ -161,18 +163,20 @@ module shade_lobe #(
     for (genvar i = 0; i < POWER; i++) begin : g_power
       localparam bit FABRIC = i > 1;  // at most four DSP blocks
       localparam int SQUARE = FABRIC ? shade_pkg::LATENCY_SQUARE_FABRIC : MUL;
+      logic squared;
       logic [Y_W-1:0] y;
       logic [Z_W-1:0] z_q;
       logic [A_W-1:0] a_q, a_late, y_q;
       logic [2*Z_W-1:0] square;
+      assign squared = power_i > shade_pkg::LOBE_POWER_W'(i);
       if (i == 0) begin : g_first
         assign y = y_q10;
       end else begin : g_next
         assign y = {1'b0, g_power[i-1].y_q};
       end
       always_ff @(posedge clk_i) begin
-        z_q <= low(y);
-        a_q <= minuend(y);
+        z_q <= low(y, squared);
+        a_q <= minuend(y, squared);
         y_q <= less(a_late, square);
       end
       shade_delay #(.WIDTH(A_W), .DEPTH(SQUARE)) u_a (.clk_i, .d_i(a_q), .q_o(a_late));
@@ -211,6 +215,9 @@ module shade_lobe #(
     logic [A_W:0] with_q, with_late, minuend_q;  // what is added to the product: dark and X, or the minuend
     logic signed [P_W-1:0] p;
     logic [Y_W-1:0] sum_q;
+    // stage 0 is chosen in phase 0, stage i, 5 i clocks later, in phase 6 - i
+    logic squared;
+    assign squared = power_i > (phase_q == 3'd0 ? 3'd0 : 3'd6 - phase_q);
     always_ff @(posedge clk_i) begin
       a_q    <= phase_q == 3'd3 ? k2_i : next_q;
       b_q    <= phase_q == 3'd3 || phase_q == 3'd2 ? {1'b0, x_q3} : next_q;
@@ -220,8 +227,8 @@ module shade_lobe #(
       else if (phase_q == 3'd5) sum_q <= base(p, with_late[X_W-1:0], with_late[A_W]);
       else sum_q <= {1'b0, less(with_late[A_W-1:0], p[2*Z_W-1:0])};
 
-      next_q    <= phase_q == 3'd1 ? offset(sum_q[S_W-1:0]) : {1'b0, low(sum_q)};
-      minuend_q <= {1'b0, minuend(sum_q)};
+      next_q    <= phase_q == 3'd1 ? offset(sum_q[S_W-1:0]) : {1'b0, low(sum_q, squared)};
+      minuend_q <= {1'b0, minuend(sum_q, squared)};
       lobe_o    <= result(sum_q[A_W-1:0]);
     end
     shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(p));

@@ -15,9 +15,9 @@ VERSINES = (COSINES[-1] - COSINES) << k.VERSINE_F - k.INTENSITY_F
 
 
 def rtl_lobe(
-    model: str, shininess: float = 1, roughness: float = 0.3, form: str = "refined", power: int = 4
+    model: str, shininess: float = 1, roughness: float = 0.3, form: str = "refined", stages: int = material.STAGES
 ) -> NDArray[np.float64]:
-    """``shade_lobe`` as a model's highlight, relative to its peak, at every cosine ``C``; 2^power is its exponent."""
-    words = material.lobe_registers(*material.fit(model, shininess, roughness, form, power))
+    """``shade_lobe``, so many squarings built, as a model's highlight, relative to its peak, at every cosine ``C``."""
+    words = material.lobe_registers(*material.fit(model, shininess, roughness, form, stages))
     inputs = {f"{name}_i": value for name, value in words.items()}
-    return sim.load("shade_lobe", POWER=power).run(x_i=VERSINES, **inputs).lobe_o / (1 << k.INTENSITY_F)
+    return sim.load("shade_lobe", POWER=stages).run(x_i=VERSINES, **inputs).lobe_o / (1 << k.INTENSITY_F)

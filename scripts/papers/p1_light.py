@@ -196,7 +196,7 @@ def printed_errors(model: str, m: float) -> dict[str | int, float]:
 
 def rtl_error(model: str, m: float, form: str = "refined", power: int = 4) -> float:
     """Largest error of ``shade_lobe``, relative to the peak, over every 17-bit cosine."""
-    return float(np.abs(rtl_lobe(model, roughness=m, form=form, power=power) - shape(model, C, m)).max())
+    return float(np.abs(rtl_lobe(model, roughness=m, form=form, stages=power) - shape(model, C, m)).max())
 
 
 # ---- gains -------------------------------------------------------------------------------------------------------
@@ -338,7 +338,7 @@ def draw_roughness(path: Path, errors: dict[tuple[str, float], float]) -> None:
                 100 * np.abs(reference.lobe(C, *material.fit(model, roughness=m)) - shape(model, C, m)).max()
                 for m in ms
             ]
-            plot.plot(ms, ours, color=figures.REFINED, label="refined 16th power")
+            plot.plot(ms, ours, color=figures.REFINED, label="refined lobe")
             found = [100 * errors[model, m] for m in ROUGHNESS]
             plot.plot(ROUGHNESS, found, "o", color=figures.REFINED, label="RTL, refined")
             plot.axhline(1.3, color=figures.PAPER, ls=":", lw=1)

@@ -216,7 +216,7 @@ def quantized_energy(row: str, n: float) -> float:
     given = material.Material(model=row.partition("-")[0], shininess=n, energy=row, exposure=1.0)
     words = material.registers(given)
     gain = words["gain"] / (1 << k.GAIN_F) * 2.0 ** words["gain_exp"]
-    lobe = light.lobe(VERSINES, *(words[name] for name in ("k1", "k2", "shift", "xmax")))
+    lobe = light.lobe(VERSINES, *(words[name] for name in light.LOBE))
     return gain * reference.hemisphere(row, C, lobe / (1 << k.INTENSITY_F))
 
 

@@ -83,13 +83,13 @@ Highlight = tuple[str, float, float]  # model, n, m
 
 
 @cache
-def _highlights(form: str, power: int) -> dict[tuple[int, ...], Highlight]:
-    """Highlights from the broadest to the sharpest that a power allows (k1 of about 96), by their registers."""
-    sharpest = min(1024, 96 << power)
+def _highlights(form: str, stages: int) -> dict[tuple[int, ...], Highlight]:
+    """Highlights from the broadest to the sharpest that these squarings allow (k1 of about 96), by their registers."""
+    sharpest = min(1024, 96 << stages)
     everything = [("blinn", n, 1) for n in np.geomspace(1, sharpest, 21).tolist()]
     for m in np.linspace(max(0.05, 1.5 / sharpest**0.5), 0.7, 10).tolist():
         everything += [("cook-torrance", 1, m), ("ward", 1, m)]
-    fits = [material.fit(*highlight, form, power) for highlight in everything]
+    fits = [material.fit(*highlight, form, stages) for highlight in everything]
     return {
         tuple(material.lobe_registers(*fit).values()): highlight
         for fit, highlight in zip(fits, everything, strict=True)
@@ -99,27 +99,26 @@ def _highlights(form: str, power: int) -> dict[tuple[int, ...], Highlight]:
 def _lobe(form: str) -> Iterator[Case]:
     """Every cosine for 41 highlights, one after the other: registers stay as they are while values are in flight."""
 
-    def case(power: int, fold: int, latency: int) -> Case:
-        highlights = _highlights(form, power)
+    def case(stages: int, fold: int, latency: int) -> Case:
+        highlights = _highlights(form, stages)
 
         def vectors() -> Iterator[Arrays]:
             x = (ONE - np.arange(ONE + 1)) << k.VERSINE_F - k.INTENSITY_F
             for registers in highlights:
                 yield {"x_i": x} | {
-                    f"{name}_i": np.full_like(x, value)
-                    for name, value in zip(("k1", "k2", "xmax", "shift"), registers, strict=True)
+                    f"{name}_i": np.full_like(x, value) for name, value in zip(light.LOBE, registers, strict=True)
                 }
 
         def golden(i: Arrays) -> Arrays:
-            return {"lobe_o": light.lobe(*(i[f"{name}_i"] for name in ("x", "k1", "k2", "shift", "xmax")), power)}
+            return {"lobe_o": light.lobe(*(i[f"{name}_i"] for name in ("x", *light.LOBE)), stages)}
 
         def highlight(i: Arrays) -> tuple[np.ndarray, Highlight]:
-            registers = tuple(int(i[f"{name}_i"][0]) for name in ("k1", "k2", "xmax", "shift"))
+            registers = tuple(int(i[f"{name}_i"][0]) for name in light.LOBE)
             return np.ldexp(i["x_i"].astype(Real), -k.VERSINE_F), highlights[registers]
 
         def exact(i: Arrays) -> Arrays:
             x, chosen = highlight(i)
-            k1, k2, xmax = material.fit(*chosen, form, power)
+            k1, k2, xmax, power = material.fit(*chosen, form, stages)
             x = np.minimum(x, xmax)
             return {"lobe_o": np.maximum(1 - k1 * x + k2 * x * x, 0) ** (1 << power) * ONE}
 
@@ -128,13 +127,13 @@ def _lobe(form: str) -> Iterator[Case]:
             return {"lobe_o": material.shape(model, x, n, m) * ONE}
 
         return Case(
-            "shade_lobe", form, {"POWER": power, "FOLD": fold}, golden, exact, ideal, None, vectors, latency, fold
+            "shade_lobe", form, {"POWER": stages, "FOLD": fold}, golden, exact, ideal, None, vectors, latency, fold
         )
 
-    for power in (4, 3, 2):
-        less = 4 - power
-        yield case(power, 1, k.LATENCY_LOBE - less * (k.LATENCY_SQUARE_FABRIC + 2))
-        yield case(power, 6, k.LATENCY_LOBE_FOLDED - less * (k.LATENCY_MUL + 3))
+    for stages in (4, 3, 2):
+        less = 4 - stages
+        yield case(stages, 1, k.LATENCY_LOBE - less * (k.LATENCY_SQUARE_FABRIC + 2))
+        yield case(stages, 6, k.LATENCY_LOBE_FOLDED - less * (k.LATENCY_MUL + 3))
 
 
 def _fresnel(form: str) -> Iterator[Case]:

@@ -108,9 +108,7 @@ def exact_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, f
     if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
         return {"diffuse_o": _dot(n, l) * ONE, "specular_o": specular, "flags_o": flags}
     _, nl, nv, x, *_, lost = light.angles(code == k.MODEL_PHONG, n, l, v, h, FORMS[form])
-    shape = (
-        ONE if code == k.MODEL_SCHLICK else light.lobe(x, *(material_[name] for name in ("k1", "k2", "shift", "xmax")))
-    )
+    shape = ONE if code == k.MODEL_SCHLICK else light.lobe(x, *(material_[name] for name in light.LOBE))
     more = [material_[name] for name in ("inv_n", "inv_n_exp")]
     num = light.geometry(code, x, nl, nv, vh, material_["cosine"], *more)[0]
     factor = quotient(code, x, nl, nv, vh, *more)
@@ -141,16 +139,16 @@ def ideal_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, f
     if code == k.MODEL_SCHLICK:
         shape = nh.clip(0) / (x / (material_["inv_n"] / ONE) * 2.0 ** material_["inv_n_exp"] + nh.clip(0))
     else:
-        shape = _lobe(x, **{name: material_[name] for name in ("k1", "k2", "shift", "xmax")})
+        shape = _lobe(x, **{name: material_[name] for name in light.LOBE})
     value = shape * g * fresnel * np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
     return rounded | {"specular_o": np.where(clear, value.clip(0, LIMITS[1]), rounded["specular_o"])}
 
 
-def _lobe(x: np.ndarray, k1: int, k2: int, shift: int, xmax: int) -> np.ndarray:
+def _lobe(x: np.ndarray, k1: int, k2: int, shift: int, xmax: int, power: int) -> np.ndarray:
     for_x, for_k = (1, 1 << k.LOBE_FINE_F) if shift == k.LOBE_FINE else (1 << shift, 1)
     limited = np.minimum(x * for_x, xmax / ONE)
     base = 1 - (k1 / (1 << k.LOBE_K1_F) - k2 / (1 << k.LOBE_K2_F) * limited) * limited / for_k
-    return np.where(x <= 1, base.clip(0, 1) ** 16, 0)
+    return np.where(x <= 1, base.clip(0, 1) ** (1 << power), 0)
 
 
 def _sum(a, b) -> np.ndarray:

@@ -72,6 +72,15 @@ def test_fresnel() -> None:
     assert np.all(light.fresnel([0, 77, ONE], 2 * ONE - 1) == ONE)
 
 
+def test_powers_of_the_lobe() -> None:
+    """(1 - x)^(2^power) of an x of few bits; more squarings than stages count as these; 0 beyond x = 1, always."""
+    x, highlight = 3 << k.VERSINE_F - 4, (1 << k.LOBE_K1_F, 0, 0, ONE)
+    expected = [round(Fraction(13, 16) ** (1 << power) * ONE) for power in (0, 1, 2, 3, 4, 4, 4, 4)]
+    assert ints(light.lobe(x, *highlight, np.arange(8))) == expected
+    assert ints(light.lobe(x, *highlight, np.arange(8), stages=2)) == expected[:3] + expected[2:3] * 5
+    assert ints(light.lobe(TWO // 2 + 1, *highlight, np.arange(8))) == [0] * 8
+
+
 def test_colour() -> None:
     """Negative light is none; half an ulp rounds up; the sum saturates."""
     assert light.colour(-ONE, -1, 1234, ONE, ONE) == 1234

@@ -16,7 +16,7 @@ from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)
 COSINES = np.arange(ONE + 1)  # every one of a node, U1.16
-SHININESS = [*np.linspace(1, 34, 133), *np.geomspace(34, 1024, 60)]
+SHININESS = [*np.linspace(1, 34, 199), *np.geomspace(34, 1024, 60)]
 ROUGHNESS = [0.2, 0.3, 0.4, 0.5, 0.6]
 ENERGY_N = [16, 17, 20, 32, 64, 100, 128, 256, 512, 1000, 1024]
 
@@ -24,7 +24,7 @@ ENERGY_N = [16, 17, 20, 32, 64, 100, 128, 256, 512, 1000, 1024]
 def lobe_of(words: dict[str, int]) -> np.ndarray:
     """The RTL's lobe of register values at every cosine."""
     x = (ONE - COSINES) << k.VERSINE_F - k.INTENSITY_F
-    return light.lobe(x, *(words[name] for name in ("k1", "k2", "shift", "xmax"))) / ONE
+    return light.lobe(x, *(words[name] for name in light.LOBE)) / ONE
 
 
 def error(model: str, form: str = "refined", *, shininess: float = 1, roughness: float = 0.3) -> float:
@@ -42,52 +42,73 @@ def gain_of(words: dict[str, int]) -> float:
 
 @pytest.mark.parametrize("n", SHININESS)
 def test_cosine_power(n: float) -> None:
-    """The least that two coefficients can do: 5.6e-4 at n = 8 and 5e-4 from n = 8.3, 1.3e-5 more after quantization."""
-    bound = 0.058 if n < 4 else 4e-3 if n < 8 else 5.8e-4 if n < 8.35 else 5e-4
+    """The least that two coefficients and a power can do; asked for are 0.06 below 4, 4e-3 below 8, then 5e-4."""
+    bound = 8.1e-3 if n < 4 else 4.5e-4 if n < 8 else 2.3e-4
     assert error("blinn", shininess=n) <= bound
     if n >= 16:
         assert error("blinn", "paper", shininess=n) <= 0.0175
 
 
-@pytest.mark.parametrize(("m", "bound"), [*zip(ROUGHNESS, [5e-4, 5e-4, 3e-3, 0.01, 0.025], strict=True)])
+@pytest.mark.parametrize(("m", "bound"), [*zip(ROUGHNESS, [2e-4, 3e-4, 5e-4, 2.2e-3, 7e-3], strict=True)])
 def test_cook_torrance(m: float, bound: float) -> None:
     assert error("cook-torrance", roughness=m) <= bound
 
 
-@pytest.mark.parametrize(("m", "bound"), [*zip(ROUGHNESS, [1e-3, 1e-3, 1.5e-3, 4e-3, 7e-3], strict=True)])
+@pytest.mark.parametrize(("m", "bound"), [*zip(ROUGHNESS, [1e-4, 1e-4, 4e-4, 8e-4, 1.7e-3], strict=True)])
 def test_ward(m: float, bound: float) -> None:
     assert error("ward", roughness=m) <= bound
 
 
-def test_exact_fits() -> None:
-    """c^16 and c^32 are powers of a polynomial themselves."""
-    assert material.fit("blinn", 16) == pytest.approx((1, 0, 1), abs=1e-12)
-    assert material.fit("blinn", 32) == pytest.approx((2, 1, 1), abs=1e-12)
+@pytest.mark.parametrize("n", [1, 2, 4, 8, 16, 32])
+def test_exact_fits(n: int) -> None:
+    """These c^n are powers of a polynomial themselves: of c, as often as it can be squared, and of c^2."""
+    k1, power = max(1, n // 16), min(n.bit_length() - 1, 4)
+    assert material.fit("blinn", n) == pytest.approx((k1, k1 - 1, 1, power), abs=1e-12)
+    assert error("blinn", shininess=n) < 1.1 / ONE
 
 
 def test_what_the_papers_print() -> None:
-    assert material.fit("phong", 64, form="paper") == (4, 0, 1)
-    assert material.fit("blinn", 64, form="paper", power=2) == (16, 0, 1)
-    assert material.fit("cook-torrance", roughness=0.5, form="paper") == (1 / (8 * 0.25) - 1 / 4, 0, 1)
-    assert material.fit("ward", roughness=0.5, form="paper") == (1 / (8 * 0.25), 0, 1)
+    assert material.fit("phong", 64, form="paper") == (4, 0, 1, 4)
+    assert material.fit("blinn", 64, form="paper", stages=2) == (16, 0, 1, 2)
+    assert material.fit("cook-torrance", roughness=0.5, form="paper") == (1 / (8 * 0.25) - 1 / 4, 0, 1, 4)
+    assert material.fit("ward", roughness=0.5, form="paper") == (1 / (8 * 0.25), 0, 1, 4)
 
 
-@pytest.mark.parametrize("power", [2, 3])
+def fitted_error(model: str, n: float, m: float, form: str = "refined", stages: int = 4) -> float:
+    """Of the lobe in float64."""
+    lobe = reference.lobe(COSINES / ONE, *material.fit(model, n, m, form, stages))
+    return np.abs(lobe - material.shape(model, 1 - COSINES / ONE, n, m)).max()
+
+
+@pytest.mark.parametrize("stages", [2, 3])
 @pytest.mark.parametrize("n", [20, 100, 1000])
-def test_lower_powers(n: float, power: int) -> None:
+def test_fewer_stages(n: float, stages: int) -> None:
     """The second coefficient helps D4 and D8 as well."""
-    x = np.linspace(0, 1, 2000)
-    paper, refined = (
-        np.abs(reference.lobe(1 - x, *material.fit("blinn", n, form=form, power=power), power) - (1 - x) ** n).max()
-        for form in ("paper", "refined")
-    )
-    assert refined < paper / 4
+    assert fitted_error("blinn", n, 1, stages=stages) < fitted_error("blinn", n, 1, "paper", stages) / 4
+
+
+@pytest.mark.parametrize(
+    ("model", "n", "m"),
+    [
+        *(("blinn", n, 1) for n in (1.5, 5, 10)),
+        *(("cook-torrance", 1, m) for m in (0.4, 0.7)),
+        ("ward", 1, 0.6),
+    ],
+)
+def test_best_power(model: str, n: float, m: float) -> None:
+    """Broad highlights take fewer squarings than there are: more stages never make a fit worse."""
+    errors = [fitted_error(model, n, m, stages=stages) for stages in range(5)]
+    power = material.fit(model, n, m)[3]
+    assert power < 4
+    assert errors == sorted(errors, reverse=True)
+    assert errors[power] == errors[4]
 
 
 @pytest.mark.parametrize("model", ["blinn", "cook-torrance", "ward"])
 @pytest.mark.parametrize("form", ["paper", "refined"])
 def test_registers_of_the_lobe(model: str, form: str) -> None:
-    """They fit their formats, and with the roundings of the lobe they cost less than 1.6 ulp of its exact value."""
+    """They fit their formats, and with the roundings of the lobe they cost less than 1.25 ulp of its exact value."""
+    bound = 1.25 if form == "refined" else 1.6  # a broad lobe under the 16th power
     values = (
         [(float(n), 0.3) for n in SHININESS[::3]] if model == "blinn" else [(1, m) for m in np.linspace(0.05, 0.7, 66)]
     )
@@ -96,12 +117,12 @@ def test_registers_of_the_lobe(model: str, form: str) -> None:
         words = material.lobe_registers(*curve)
         assert 0 <= words["k1"] < 2 << k.LOBE_K1_F and abs(words["k2"]) < 1 << k.LOBE_K2_F
         assert 0 < words["xmax"] < 2 << k.LOBE_X_F and 0 <= words["shift"] <= k.LOBE_FINE
-        assert np.abs(lobe_of(words) - reference.lobe(COSINES / ONE, *curve)).max() < 1.6 / ONE
+        assert np.abs(lobe_of(words) - reference.lobe(COSINES / ONE, *curve)).max() < bound / ONE
 
 
 def test_what_no_register_holds() -> None:
     with pytest.raises(ValueError, match="k1, k2: 128, 0 are out of range, allowed is k1 / 64 < 2"):
-        material.lobe_registers(128, 0, 1)
+        material.lobe_registers(128, 0, 1, 4)
 
 
 # ---- energy ------------------------------------------------------------------------------------------------------
@@ -116,8 +137,8 @@ def energy(row: str, n: float, form: str = "refined") -> float:
 @pytest.mark.parametrize("row", reference.ROWS)
 @pytest.mark.parametrize("n", [1, 2.5, 8, *ENERGY_N])
 def test_energy(row: str, n: float) -> None:
-    """Never more than there is, and hardly less."""
-    assert 0.999 <= energy(row, n) <= 1
+    """Never more than there is, and hardly less: what the fit lacks, 0.16 % at n = 2.5, is not made up for."""
+    assert 0.998 <= energy(row, n) <= 1
 
 
 PAPER_ENERGY = {  # least and most over n in 16 .. 1024

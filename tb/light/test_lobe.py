@@ -16,24 +16,25 @@ def test_cocotb(point):
 
 @checked(**TRAFFIC)
 async def stream(bench: Bench, gap: float, reset: float) -> None:
-    """Highlights of materials and any other registers; versines around 0, around 1 and beyond, and random ones.
+    """Highlights of materials and any other registers, with every power; versines around 0 and 1, beyond, random ones.
 
     With FOLD = 6 every sixth clock takes one; what is offered in the others is ignored. Each value comes out after the
     same number of clocks.
     """
-    dut, rows, fold, power = bench.dut, 150, bench.parameter("FOLD"), bench.parameter("POWER")
+    dut, rows, fold, stages = bench.dut, 150, bench.parameter("FOLD"), bench.parameter("POWER")
     step, latency = (6, k.LATENCY_LOBE) if fold == 1 else (5, k.LATENCY_LOBE_FOLDED)
-    latency -= step * (4 - power)
+    latency -= step * (4 - stages)
     materials = [(n, form) for n in (1, 20, 300) for form in ("paper", "refined")]
-    sets = [lobe_registers(*fit("blinn", n, form=form, power=power)) for n, form in materials]
-    sets += [{"k1": (1 << k.LOBE_K1_W) - 1, "k2": -1 << k.LOBE_K2_W - 1, "xmax": (2 << k.LOBE_X_F) - 1, "shift": 6}]
-    sets += [any_registers(bench) for _ in range(6)]
+    sets = [lobe_registers(*fit("blinn", n, form=form, stages=stages)) for n, form in materials]
+    steepest = {"k1": (1 << k.LOBE_K1_W) - 1, "k2": -1 << k.LOBE_K2_W - 1, "shift": 6, "xmax": (2 << k.LOBE_X_F) - 1}
+    sets += [steepest | {"power": power} for power in (0, 4)]
+    sets += [any_registers(bench) | {"power": power} for power in range(1 << k.LOBE_POWER_W)]
 
     for registers in sets:
         one = 1 << k.VERSINE_F
         x = bench.rng.integers(0, 2 * one, rows, endpoint=True) >> bench.rng.integers(0, 13, rows)
         x[::7] = bench.rng.choice([0, 1, 8, one - 1, one, one + 1, 2 * one, 2 * one - 1], len(x[::7]))
-        given, wanted = x.tolist(), lobe(x, **registers, power=power).tolist()
+        given, wanted = x.tolist(), lobe(x, **registers, stages=stages).tolist()
         for name, value in registers.items():
             port = getattr(dut, f"{name}_i")
             port.value = patterns(port, [value])[0]
@@ -66,6 +67,6 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
 
 
 def any_registers(bench: Bench) -> dict[str, int]:
-    """Registers of any bits."""
+    """Registers of any bits, but for the power."""
     unsigned = {name: int(bench.rng.integers(1 << bench.bits(f"{name}_i"))) for name in ("k1", "xmax", "shift")}
     return unsigned | {"k2": int(bench.signed(k.LOBE_K2_W, 1)[0])}

@@ -200,13 +200,13 @@ def test_channels() -> None:
 
 
 def test_kappa() -> None:
-    """n (1 - c); phong's highlight turns twice as fast: four times that; diffuse light counts as n = 1."""
+    """n (1 - c); phong's highlight turns twice as fast: four times that; diffuse light counts as n = 2."""
     c = cos(radians(10))
     assert light.kappa("blinn", at(5), at(15), 32) == pytest.approx(32 * (1 - c))
     assert light.kappa("phong", at(5), at(15), 32) == pytest.approx(128 * (1 - c))
-    assert light.kappa("lambert", at(5), at(15), 32) == pytest.approx(1 - c)
+    assert light.kappa("lambert", at(5), at(15), 32) == pytest.approx(2 * (1 - c))
     assert light.kappa("blinn", at(0), [0, 0, 5], 1024) == 0
-    assert light.kappa("lambert", at(0), at(180), 1) == pytest.approx(2)
+    assert light.kappa("lambert", at(0), at(180), 1) == pytest.approx(4)
     assert light.kappa("blinn", np.zeros((0, 3)), np.zeros((0, 3)), 8).shape == (0,)
 
 
@@ -221,7 +221,7 @@ def test_sharpness() -> None:
         curvature = 2 * (1 - beside / peak) / h**2
         factor = {"schlick": sqrt(2), "cook-torrance": 50 / 44, "ward": 50 / 49}.get(model, 1)
         assert light.sharpness(model, 50, 0.2) == pytest.approx(factor * curvature, rel=0.05), model
-    assert light.sharpness("lambert", 50) == light.sharpness("blinn", 0.5) == 1
+    assert light.sharpness("lambert", 50) == light.sharpness("blinn", 0.5) == 2
 
 
 def test_half_the_arc_has_a_quarter_of_kappa() -> None:

@@ -219,14 +219,14 @@ package shade_pkg;
   localparam int LATENCY_PLANNER = 28;  // see shade_planner
   localparam int LATENCY_PLANNER_FOLDED = 34;
   localparam int LATENCY_COLLECT = 1;  // the record
-  localparam int LATENCY_NODE_WALK = 3;  // the next run's step, the run, the rounding
+  localparam int LATENCY_NODE_WALK = 4;  // the choice of a run, its step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
   localparam int LATENCY_RECORD = 83;  // normal to pixel
-  localparam int LATENCY_LANE = 136;
+  localparam int LATENCY_LANE = 137;
   localparam int LATENCY_LANE_NORMALS = 126;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
-  localparam int LATENCY_CORE = 137;  // the door
+  localparam int LATENCY_CORE = 138;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 83;  // span, ..., clamp, FIFO
 

@@ -149,10 +149,8 @@ module shade_light_folded #(
   logic [W-2:0] low_q;
   logic [V_W-1:0] v_q, v_coarse_q, v_fine_q;
   logic [5:0] right_q;
-  logic signed [shade_pkg::GAIN_EXP_W:0] right;
-  assign right = (shade_pkg::GAIN_EXP_W + 1)'(31) - (shade_pkg::GAIN_EXP_W + 1)'(gain_exp_i);
   always_ff @(posedge clk_i) begin
-    right_q <= right[5:0];  // 0 .. 63: gain_exp is -32 .. 31
+    right_q <= 6'd31 - gain_exp_i;  // 0 .. 63: gain_exp is -32 .. 31
     case (phase_q)
       3'd3: begin
         c_q <= blinn && !lost ? {1'b0, lobe} : '0;

@@ -14,7 +14,7 @@
 //   slot_o             number of the node in its record; first_o, last_o frame the nodes of a record that come
 //   count_o, degree_o  of the record; more_o: the span goes on behind it; flat_o, tag_o: the span's
 //
-// Latency from a span taken to its first node LATENCY_NODE_WALK = 3 clocks, one node a clock. PACE > 1: a node in PACE clocks,
+// Latency from a span taken to its first node LATENCY_NODE_WALK = 4 clocks, one node a clock. PACE > 1: a node in PACE clocks,
 // whenever their number since reset is a multiple of it: for folded units.
 // Example: 5 pixels, one record of degree 3: nodes at pixels 0, 1, 2, 4 in slots 0, 1, 2, 3.
 // Source: P4 (one increment for all lines of a triangle), P1, section IV (nodes).
@@ -62,10 +62,10 @@ module shade_node_walk #(
   localparam int TAG_W = shade_pkg::TAG_W;
   localparam logic [COUNT_W-1:0] ONE = COUNT_W'(1);
 
-  // ---- the next run: the main records, or the last one, with its step (a quarter, a half or all of a record) --------
-  logic main, take, next_valid_q, load;
+  // ---- the run after next: the main records, or the last one, and its step (a quarter, a half or all of a record) ------
+  logic main, take, chosen_valid_q, move, next_valid_q, load;
   logic main_done_q;
-  logic [3:0] run_log2, step_log2;
+  logic [3:0] run_log2, step_log2, step_log2_q;
   logic [DEGREE_W-1:0] run_degree;
   assign main       = main_i != '0 && !main_done_q;
   assign run_degree = main ? degree_i : last_degree_i;
@@ -78,34 +78,51 @@ module shade_node_walk #(
       default: step_log2 = '0;
     endcase
   end
-  assign take    = valid_i && (!next_valid_q || load);
-  assign ready_o = !main && (!next_valid_q || load);
+  assign move    = chosen_valid_q && (!next_valid_q || load);
+  assign take    = valid_i && (!chosen_valid_q || move);
+  assign ready_o = !main && (!chosen_valid_q || move);
 
-  logic next_fresh_q, next_shared_q, next_more_q, next_flat_q;
-  logic [3*STEP_W-1:0] next_n_q, next_step_q;
-  logic [COUNT_W-1:0] next_records_q, next_count_q;
-  logic [DEGREE_W-1:0] next_degree_q;
-  logic [TAG_W-1:0] next_tag_q;
+  // what a run keeps from here on, in one word
+  localparam int RUN_W = 4 + COUNT_W + COUNT_W + DEGREE_W + TAG_W;
+  logic [3*STEP_W-1:0] chosen_n_q, chosen_g_q;
+  logic [RUN_W-1:0] chosen_q, next_q;
   always_ff @(posedge clk_i) begin
     if (take) begin
-      next_fresh_q   <= !main_done_q;
-      next_shared_q  <= main_done_q && degree_i != '0;
-      next_more_q    <= main;
-      next_flat_q    <= flat_i;
-      next_n_q       <= n_i;
-      for (int c = 0; c < 3; c++) next_step_q[c*STEP_W+:STEP_W] <= g_i[c*STEP_W+:STEP_W] << step_log2;
-      next_records_q <= main ? main_i : ONE;
-      next_count_q   <= main ? ONE << log2_i : last_count_i;
-      next_degree_q  <= run_degree;
-      next_tag_q     <= tag_i;
+      chosen_n_q  <= n_i;
+      chosen_g_q  <= g_i;
+      step_log2_q <= step_log2;
+      chosen_q    <= {
+        !main_done_q, main_done_q && degree_i != '0, main, flat_i, main ? main_i : ONE,
+        main ? ONE << log2_i : last_count_i, run_degree, tag_i
+      };
     end
     if (take) main_done_q <= main;
-    if (take) next_valid_q <= 1'b1;
-    else if (load) next_valid_q <= 1'b0;
+    if (take) chosen_valid_q <= 1'b1;
+    else if (move) chosen_valid_q <= 1'b0;
     if (rst_i) begin
-      main_done_q  <= 1'b0;
-      next_valid_q <= 1'b0;
+      main_done_q    <= 1'b0;
+      chosen_valid_q <= 1'b0;
     end
+  end
+
+  // ---- the next run, with its step ---------------------------------------------------------------------------------
+  logic next_fresh, next_shared, next_more, next_flat;
+  logic [3*STEP_W-1:0] next_n_q, next_step_q;
+  logic [COUNT_W-1:0] next_records, next_count;
+  logic [DEGREE_W-1:0] next_degree;
+  logic [TAG_W-1:0] next_tag;
+  assign {next_fresh, next_shared, next_more, next_flat, next_records, next_count, next_degree, next_tag} = next_q;
+  always_ff @(posedge clk_i) begin
+    if (move) begin
+      next_q   <= chosen_q;
+      next_n_q <= chosen_n_q;
+      for (int c = 0; c < 3; c++) begin
+        next_step_q[c*STEP_W+:STEP_W] <= chosen_g_q[c*STEP_W+:STEP_W] << step_log2_q;
+      end
+    end
+    if (move) next_valid_q <= 1'b1;
+    else if (load) next_valid_q <= 1'b0;
+    if (rst_i) next_valid_q <= 1'b0;
   end
 
   // ---- the run in work ---------------------------------------------------------------------------------------
@@ -142,7 +159,7 @@ module shade_node_walk #(
     assign node = node_q[c*STEP_W+:STEP_W];
     assign step = load ? next_step_q[c*STEP_W+:STEP_W] : step_q[c*STEP_W+:STEP_W] << far;
     always_ff @(posedge clk_i) begin
-      if (load) node_q[c*STEP_W+:STEP_W] <= next_fresh_q ? next_n_q[c*STEP_W+:STEP_W] : node + step;
+      if (load) node_q[c*STEP_W+:STEP_W] <= next_fresh ? next_n_q[c*STEP_W+:STEP_W] : node + step;
       else if (issue && !end_run) node_q[c*STEP_W+:STEP_W] <= node + step;
     end
   end
@@ -150,16 +167,16 @@ module shade_node_walk #(
   always_ff @(posedge clk_i) begin
     if (load) begin
       first_q     <= 1'b1;
-      shared_q    <= next_shared_q;
-      slot_q      <= {1'b0, next_shared_q};
-      last_slot_q <= next_degree_q == '0 ? 2'(next_count_q - ONE) : next_degree_q;
-      records_q   <= next_records_q;
-      count_q     <= next_count_q;
-      degree_q    <= next_degree_q;
+      shared_q    <= next_shared;
+      slot_q      <= {1'b0, next_shared};
+      last_slot_q <= next_degree == '0 ? 2'(next_count - ONE) : next_degree;
+      records_q   <= next_records;
+      count_q     <= next_count;
+      degree_q    <= next_degree;
       step_q      <= next_step_q;
-      more_q      <= next_more_q;
-      flat_q      <= next_flat_q;
-      tag_q       <= next_tag_q;
+      more_q      <= next_more;
+      flat_q      <= next_flat;
+      tag_q       <= next_tag;
     end else if (issue) begin
       first_q <= end_record;
       if (end_record) begin

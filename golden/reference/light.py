@@ -297,7 +297,7 @@ def sharpness(model: str, shininess: float = 1, roughness: float = 0.3) -> float
     Phong's R.V turns twice as fast as the normal: 4 n. Cook-Torrance, Ward: exp(-tan^2 g / m^2) ~ cos^(2/m^2) g.
     Schlick: with s^2 = n g^2 / 2 it is 1/(1 + s^2) where cos^n g is exp(-s^2): the same curvature at the peak, but a
     fourth derivative of 24 instead of 12, which a cubic's error follows, and half the length takes it to a sixteenth:
-    sqrt(2) n. Diffuse light, cos^1, counts as 2, and nothing counts less: a line of it has few pixels to spare an error.
+    sqrt(2) n. Diffuse light counts as 2, and nothing counts less.
     """
     exponent = {
         "lambert": 2,

@@ -252,6 +252,6 @@ module shade_lane #(
     .error_o(), .error_count_o()
   );
 
-  logic unused_meta;
-  assign unused_meta = &{1'b0, meta_valid};
+  logic unused_rest;  // of the settings those of shade_paint
+  assign unused_rest = &{1'b0, meta_valid, draw_i};
 endmodule

@@ -221,12 +221,12 @@ def calm(bench: Bench, count: list[int]) -> Spans:
 
 @checked(**PRESSURE)
 async def traffic(bench: Bench, gap: float, stall: float) -> None:
-    """Draw calls of all models by either path, faulty spans among them, pauses on every channel or none.
+    """Draw calls of any models by either path, faulty spans among them, pauses on every channel or none.
 
     Meanwhile registers are read, and settings written, in vain.
     """
     core = Core(bench, gap, stall)
-    for path, code in enumerate(random.sample(CODES, len(CODES))):
+    for path, code in enumerate(random.sample(CODES, 4)):
         await core.begin(any_settings(bench, code, path % 2))
         count = bench.rng.choice([0, 1, 2, 3, 4, 5, 9, 30, k.PIXELS_MAX + 1], 30 * core.watch.lanes)
         torn = bench.rng.choice([0, SHORT, LONG], count.size, p=[0.9, 0.05, 0.05])
@@ -364,7 +364,7 @@ async def settled(bench: Bench, name: str) -> None:
     """A setting is written while a span comes, in any clock: it holds for all of the span, or is refused."""
     core = Core(bench)
     answers = set()
-    for wait in range(12):
+    for wait in range(3, 10):
         await core.begin({"gain": 1 << k.GAIN_F, name: 1})
         ((offset, word),) = pack({name: 0}).items()
         writing = cocotb.start_soon(core.write(offset, word))

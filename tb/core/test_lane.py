@@ -17,7 +17,10 @@ PAYLOAD = [PIXEL + name for name in ("tdata", "tuser", "tlast")]
 PATHS = [k.PATH_POLY, k.PATH_NORMALS]
 
 
-@points({}, {"EVALUATOR": k.EVALUATOR_HORNER, "FORM": k.FORM_PAPER, "REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0})
+SMALL = {"REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}
+
+
+@points({}, {"EVALUATOR": k.EVALUATOR_HORNER, "FORM": k.FORM_PAPER, **SMALL}, {"FOLD": 6, **SMALL})
 def test_cocotb(point):
     simulate("shade_lane", point)
 
@@ -40,7 +43,7 @@ class Lane:
     """A lane with something that sends spans, something that takes pixels, something that looks at the lights."""
 
     def __init__(self, bench: Bench, stall: float = 0.0):
-        self.bench = bench
+        self.bench, self.fold = bench, bench.parameter("FOLD")
         self.source = Source(bench, SPAN + "tvalid", SPAN + "tready", [SPAN + "tdata"])
         self.sink = Sink(bench, PIXEL + "tvalid", PIXEL + "tready", PAYLOAD, stall)
         self.lights = Lights(bench)
@@ -63,9 +66,8 @@ class Lane:
         """Wait for all pixels of the spans and compare them, and the flags of all lights; no more may come."""
         bench, drawn = self.bench, self.golden(draw, sent)
         words = [*zip(*map(np.ndarray.tolist, pixel_words(drawn, sent.tag)), strict=True)]
-        await bench.until(
-            lambda: len(self.sink.words) >= len(words), 4 * len(words) + 3 * k.LATENCY_LANE, f"{len(words)} pixels"
-        )
+        patience = 4 * self.fold * len(words) + 3 * k.LATENCY_LANE
+        await bench.until(lambda: len(self.sink.words) >= len(words), patience, f"{len(words)} pixels")
         await bench.tick(k.LATENCY_LANE + 20)
         bench.equal(len(self.sink.words), len(words), "number of pixels")
         for index, (word, wanted) in enumerate(zip(self.sink.words, words, strict=True)):
@@ -95,37 +97,49 @@ async def traffic(bench: Bench, path: int, gap: float, stall: float) -> None:
         await lane.compare(draw, sent)
 
 
+def by_normals(bench: Bench, path: int) -> bool:
+    """Is it the path of normals? Not where that is left out."""
+    return path == k.PATH_NORMALS and bench.parameter("PATH_NORMALS") == 1
+
+
+def first_pixel(bench: Bench, path: int) -> int:
+    """Clocks from a span of one node to its first pixel."""
+    if bench.parameter("FOLD") == 6:
+        return k.LATENCY_LANE_FOLDED
+    clocks = k.LATENCY_LANE_NORMALS if by_normals(bench, path) else k.LATENCY_LANE
+    if bench.parameter("EVALUATOR") == k.EVALUATOR_HORNER:
+        clocks += k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_SPAN_FDIFF
+    return clocks - (not bench.parameter("REFLECT")) * k.LATENCY_REFLECT
+
+
 @checked(path=PATHS, degree=[1, 2, 3])
 async def latency(bench: Bench, path: int, degree: int) -> None:
-    """From a span to its first pixel, in an empty lane: a clock more for every node of its record but one."""
+    """From a span to its first pixel, in an empty lane: a clock more, or FOLD, for every node of its record but one."""
     lane = Lane(bench)
     draw = settings(bench, k.MODEL_BLINN) | {"path": path, "fixed_degree": degree}
-    normals = path == k.PATH_NORMALS and bench.parameter("PATH_NORMALS")
-    wanted = k.LATENCY_LANE_NORMALS if normals else k.LATENCY_LANE
-    if not bench.parameter("REFLECT"):
-        wanted -= k.LATENCY_REFLECT
-    if bench.parameter("EVALUATOR") == k.EVALUATOR_HORNER:
-        wanted += k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_SPAN_FDIFF
     for count in (1, 2, 3, 4, 5, 30):
         sent = spans(bench, [count])
         sent.flat[:] = 0
         await lane.begin(draw)
         await lane.source.send(sent.words())
         await lane.compare(draw, sent)
-        nodes = 1 if normals else count if count <= k.DIRECT_MAX else degree + 1
-        bench.equal(lane.sink.clocks[0] - lane.source.clocks[0], wanted + nodes - 1, f"latency of {count} pixels")
+        nodes = 1 if by_normals(bench, path) else count if count <= k.DIRECT_MAX else degree + 1
+        wanted = first_pixel(bench, path) + (nodes - 1) * lane.fold
+        bench.equal(lane.sink.clocks[0] - lane.source.clocks[0], wanted, f"latency of {count} pixels")
 
 
 @checked(path=PATHS, count=[1, 2, 3, 4, 5, 33])
 async def throughput(bench: Bench, path: int, count: int) -> None:
-    """N pixels in N clocks: no bubble between spans, however short."""
+    """N pixels in N clocks: no bubble between spans, however short; folded, a node in FOLD clocks."""
     lane = Lane(bench)
     draw = settings(bench, k.MODEL_BLINN) | {"path": path, "fixed_degree": k.DEGREE_CUBIC}
-    sent = spans(bench, [count] * max(200 // count, 8))
+    rows = max(200 // count, 8)
+    sent = spans(bench, [count] * rows)
     await lane.begin(draw)
     await lane.source.send(sent.words())
     await lane.compare(draw, sent)
-    bench.equal(lane.sink.clocks[-1] - lane.sink.clocks[0] + 1, sent.count.sum(), "clocks of all pixels")
+    wanted = (rows - 1) * max(count, lane.fold * min(count, k.NODE_COUNT)) + count
+    bench.equal(lane.sink.clocks[-1] - lane.sink.clocks[0] + 1, wanted, "clocks of all pixels")
 
 
 @checked(path=PATHS)
@@ -145,15 +159,16 @@ async def blocked(bench: Bench, path: int) -> None:
     """A sink that takes nothing for long: every place fills, nothing more is taken; all of it comes, one a clock."""
     lane = Lane(bench, stall=1.0)
     draw = settings(bench, k.MODEL_BLINN) | {"path": path, "fixed_degree": k.DEGREE_CUBIC}
-    sent = spans(bench, [9] * 220)
+    count = max(9, k.NODE_COUNT * lane.fold)  # light can keep up
+    sent = spans(bench, [count] * 220)
     await lane.begin(draw)
     sending = cocotb.start_soon(lane.source.send(sent.words()))
-    await bench.tick(1200)
+    await bench.tick(1200 * lane.fold)
     pixels = 1 << k.FIFO_LOG2
-    if path == k.PATH_NORMALS and bench.parameter("PATH_NORMALS"):
-        held = (pixels + 1 + (1 << k.RECORD_FIFO_LOG2) + (1 << k.NORMAL_FIFO_LOG2)) // 9 + 1
-    else:  # records begun, with a credit; two spans in the walk
-        held = pixels // 9 + 1 + (1 << k.RECORD_FIFO_LOG2) + 2 + (1 << k.SPAN_FIFO_LOG2)
+    if by_normals(bench, path):
+        held = (pixels + 1 + (1 << k.RECORD_FIFO_LOG2) + (1 << k.NORMAL_FIFO_LOG2)) // count + 1
+    else:  # records begun, with a credit; three spans in the walk
+        held = pixels // count + 1 + (1 << k.RECORD_FIFO_LOG2) + 3 + (1 << k.SPAN_FIFO_LOG2)
     bench.equal(len(lane.source.clocks), held, "spans taken while the sink is not ready")
     lane.sink.stall = 0.0
     await sending

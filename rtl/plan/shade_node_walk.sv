@@ -83,7 +83,7 @@ module shade_node_walk #(
   assign ready_o = !main && (!chosen_valid_q || move);
 
   // what a run keeps from here on, in one word
-  localparam int RUN_W = 4 + COUNT_W + COUNT_W + DEGREE_W + TAG_W;
+  localparam int RUN_W = 5 + COUNT_W + COUNT_W + DEGREE_W + TAG_W;
   logic [3*STEP_W-1:0] chosen_n_q, chosen_g_q;
   logic [RUN_W-1:0] chosen_q, next_q;
   always_ff @(posedge clk_i) begin
@@ -92,7 +92,7 @@ module shade_node_walk #(
       chosen_g_q  <= g_i;
       step_log2_q <= step_log2;
       chosen_q    <= {
-        !main_done_q, main_done_q && degree_i != '0, main, flat_i, main ? main_i : ONE,
+        !main_done_q, main_done_q && degree_i != '0, main, flat_i, !main || main_i == ONE, main ? main_i : ONE,
         main ? ONE << log2_i : last_count_i, run_degree, tag_i
       };
     end
@@ -106,12 +106,14 @@ module shade_node_walk #(
   end
 
   // ---- the next run, with its step ---------------------------------------------------------------------------------
-  logic next_fresh, next_shared, next_more, next_flat;
+  logic next_fresh, next_shared, next_more, next_flat, next_single;
   logic [3*STEP_W-1:0] next_n_q, next_step_q;
   logic [COUNT_W-1:0] next_records, next_count;
   logic [DEGREE_W-1:0] next_degree;
   logic [TAG_W-1:0] next_tag;
-  assign {next_fresh, next_shared, next_more, next_flat, next_records, next_count, next_degree, next_tag} = next_q;
+  assign {
+    next_fresh, next_shared, next_more, next_flat, next_single, next_records, next_count, next_degree, next_tag
+  } = next_q;
   always_ff @(posedge clk_i) begin
     if (move) begin
       next_q   <= chosen_q;
@@ -126,7 +128,7 @@ module shade_node_walk #(
   end
 
   // ---- the run in work ---------------------------------------------------------------------------------------
-  logic busy_q, first_q, shared_q, more_q, flat_q, some_credit_q;
+  logic busy_q, first_q, shared_q, more_q, flat_q, last_record_q, some_credit_q;
   logic issue, end_record, end_run;
   logic [1:0] slot_q, last_slot_q;
   logic [3*STEP_W-1:0] node_q, step_q;
@@ -138,7 +140,7 @@ module shade_node_walk #(
   logic far;  // the next node of a cubic lies half a record away
   assign issue      = busy_q && (!first_q || some_credit_q) && on_pace;
   assign end_record = slot_q == last_slot_q;
-  assign end_run    = end_record && records_q == ONE;
+  assign end_run    = end_record && last_record_q;
   assign load       = next_valid_q && (!busy_q || (issue && end_run));
   assign far        = degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;
   assign credit_d   = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(issue && first_q);
@@ -171,6 +173,7 @@ module shade_node_walk #(
       slot_q      <= {1'b0, next_shared};
       last_slot_q <= next_degree == '0 ? 2'(next_count - ONE) : next_degree;
       records_q   <= next_records;
+      last_record_q <= next_single;
       count_q     <= next_count;
       degree_q    <= next_degree;
       step_q      <= next_step_q;
@@ -183,6 +186,7 @@ module shade_node_walk #(
         shared_q  <= degree_q != '0;
         slot_q    <= {1'b0, degree_q != '0};
         records_q <= records_q - ONE;
+        last_record_q <= records_q == COUNT_W'(2);
       end else begin
         slot_q <= slot_q + 2'd1;
       end

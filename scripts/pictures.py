@@ -4,7 +4,7 @@ docs/head.png              the default head, every pixel out of the RTL
 docs/forms.png             P1's form and the refined one, and their errors
 docs/gallery.png           every model, energy scale and form
 docs/degrees.png           which degree the planner gives to which pixel
-docs/datapath.svg          shade_poly_span, formats and latencies from the contract
+docs/datapath.svg          shade_core, latencies from the contract
 docs/timing_poly_span.svg  its streams, from a waveform
 docs/timing_horner_seq.svg the evaluator of P1, Fig. 9, step by step, from a waveform
 """
@@ -58,56 +58,52 @@ def degrees(path: Path) -> None:
 
 
 def datapath(path: Path) -> None:
-    """The blocks of ``shade_poly_span``."""
-    made = svg.Svg(1060, 318)
-    made.text(24, 32, "shade_poly_span", 16, "start", font_weight="bold")
-    made.text(24, 51, "one pixel a clock, no bubble between spans; the pipeline never stalls", 12, "start", fill=GREY)
-    top, height = 112, 100
+    """The way of the data through ``shade_core``."""
+    made = svg.Svg(1110, 300)
+    made.text(24, 32, "shade_core", 16, "start", font_weight="bold")
+    made.text(
+        24,
+        51,
+        "one pixel a clock and lane; pipelines that never stall, FIFOs and credits between",
+        12,
+        "start",
+        fill=GREY,
+    )
+    top, height, width = 100, 100, 132
     middle, bottom = top + height / 2, top + height
-    blocks = {  # x, width, two lines, clocks
-        "span_walk": (112, 130, "pixel by pixel:", "t = j 2⁻ᵏ", "a token a clock"),
-        "coef": (322, 130, "A, B, C, D by", "shifts and adds", f"{k.LATENCY_COEF} clocks"),
-        "horner_pipe or fdiff": (
-            536,
-            156,
-            "((A t + B) t + C) t + D",
-            "or three additions",
-            f"{k.LATENCY_HORNER_PIPE} or {k.LATENCY_FDIFF} clocks",
-        ),
-        "clamp": (756, 80, "to 0 ..", "1 − 2⁻¹⁶", "1 clock"),
-        "fifo": (892, 80, f"{1 << k.FIFO_LOG2}", "pixels", f"{k.LATENCY_FIFO} clocks"),
+    blocks = {  # x, two lines, clocks
+        "planner": (96, "κ = n (1 − c): records", "of degree 1, 2, 3", k.LATENCY_PLANNER),
+        "node_walk": (282, "N + j G by adders,", "a node a clock", k.LATENCY_NODE_WALK),
+        "unit": (468, "n = v / |v|", "", k.LATENCY_UNIT),
+        "light": (654, "N·L, lobe, scale:", "six models", k.LATENCY_LIGHT),
+        "poly_span": (868, "A, B, C, D by shifts,", "forward differences", k.LATENCY_POLY_SPAN_FDIFF),
     }
-    walk, coef, evaluator, clamp, fifo = blocks.values()
-    for x, width, *_ in (coef, evaluator, clamp):
-        made.box(x + 8, top - 8, width, height, "#f6fafa")  # the second channel, behind the first
-    made.text(coef[0] + 3, top - 17, "for each of two channels: diffuse, specular", 11, "start", fill=GREY)
-    for name, (x, width, *lines, clocks) in blocks.items():
+    lefts = [x for x, *_ in blocks.values()]
+    for name, (x, *lines, clocks) in blocks.items():
         made.box(x, top, width, height)
         made.text(x + width / 2, top + 22, name, 13, font_weight="bold")
         for i, words in enumerate(lines):
             made.text(x + width / 2, top + 46 + 17 * i, words, 12)
-        made.text(x + width / 2, bottom - 10, clocks, 11, fill=GREY)
+        made.text(x + width / 2, bottom - 10, f"{clocks} clocks", 11, fill=GREY)
 
     def link(start: float, end: float, *words: str) -> None:
         made.arrow(f"M{start} {middle}H{end}")
         for i, each in enumerate(reversed(words)):
             made.text((start + end) / 2 - 3, middle - 7 - 14 * i, each, 10.5)
 
-    link(22, walk[0], "spans", "AXI4-Stream")
-    link(sum(walk[:2]), coef[0], "8 nodes", "S1.16")
-    link(sum(coef[:2]) + 8, evaluator[0], "A, B, C", "S8.16")
-    link(sum(evaluator[:2]) + 8, clamp[0], "S10.16")
-    link(sum(clamp[:2]) + 8, fifo[0], "U0.16")
-    link(sum(fifo[:2]), 1046, "pixels", "AXI4-Stream")
+    link(14, lefts[0], "spans", "AXI4-Stream")
+    link(lefts[0] + width, lefts[1], "plans")
+    link(lefts[1] + width, lefts[2], "S2.15")
+    link(lefts[2] + width, lefts[3], "S1.16")
+    link(lefts[3] + width, lefts[4], "records", "of nodes")
+    link(lefts[4] + width, 1096, "pixels", "AXI4-Stream")
 
-    tokens, credits, into = bottom + 32, bottom + 70, evaluator[0] + 60
-    made.arrow(f"M{walk[0] + 90} {bottom}V{tokens}H{fifo[0] + 24}V{bottom}")
-    made.arrow(f"M{into} {tokens}V{bottom}")
-    made.text((walk[0] + 90 + into) / 2, tokens - 6, "t, first, last, tag", 10.5)
-    made.text((into + fifo[0] + 24) / 2, tokens - 6, "last, tag", 10.5)
-    made.arrow(f"M{fifo[0] + 56} {bottom}V{credits}H{walk[0] + 40}V{bottom}", dash="5 4")
-    words = "credits: a pixel is started only when a place in the FIFO is free"
-    made.text((walk[0] + 40 + fifo[0] + 56) / 2, credits - 6, words, 11)
+    normals, setting = bottom + 36, bottom + 72
+    made.arrow(f"M52 {middle}V{normals}H{lefts[3] + 40}V{bottom}")
+    words = "or, at every pixel: shade_pixel_normals, unit normals by midpoints (P4)"
+    made.text((52 + lefts[3] + 40) / 2, normals - 6, words, 11)
+    made.arrow(f"M14 {setting}H{lefts[3] + 92}V{bottom}", dash="5 4")
+    made.text((14 + lefts[3] + 92) / 2, setting - 6, "AXI4-Lite: material, light, thresholds; status, counters", 11)
     made.save(path)
 
 

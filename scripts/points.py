@@ -7,6 +7,9 @@ from itertools import product
 
 from sim.sources import Point
 
+SMALL: Point = {"REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}  # a core with Lambert and Blinn, by polynomials
+FOLDED: Point = {"FOLD": 6, **SMALL}
+
 
 def grid(**choices: list[int]) -> list[Point]:
     """Every combination of the choices: ``grid(FORM=[0, 1])`` is ``[{"FORM": 0}, {"FORM": 1}]``."""
@@ -63,6 +66,8 @@ POINTS: dict[str, list[Point]] = {
     "shade_light_folded": [{"FORM": 0}],
     "shade_node_walk": [{"CREDIT_LOG2": 1}, {"PACE": 6}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
+    "shade_lane": [{"EVALUATOR": 0, "FORM": 0, **SMALL}, FOLDED],
+    "shade_core": [{"LANES": 4, "COLOUR": 1, **FOLDED}],
 }
 
 REFUSED: dict[str, list[Point]] = {
@@ -103,6 +108,8 @@ REFUSED: dict[str, list[Point]] = {
     "shade_planner": [{"FOLD": 2}],
     "shade_node_walk": [{"CREDIT_LOG2": 0}, {"PACE": 9}],
     "shade_poly_span": [{"EVALUATOR": 2}],
+    "shade_lane": [{"PATH_NORMALS": 2}, {"FOLD": 2, **SMALL}, {"FOLD": 6}],
+    "shade_core": [{"LANES": 0}, {"LANES": 3}, {"COLOUR": 2}, {"DATA_W": 16}],
 }
 
 # Points beside the default one that stand in the synthesis report as well.
@@ -116,6 +123,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_lobe": [{"FOLD": 6}, {"POWER": 3}, {"POWER": 2}],
     "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],
     "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}],
+    "shade_core": [SMALL, FOLDED, {"COLOUR": 1}, {"LANES": 4, **SMALL}],
     "yardstick_beckmann": [{"WARD": 1}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }

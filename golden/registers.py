@@ -153,7 +153,7 @@ GROUPS: dict[str, tuple[Register, ...]] = {
                 "U1.16",
                 reset=_ONE,
             ),
-            Field("sharpness_exp", k.SHARPNESS_EXP_W, "and exponent, 0 to 12", lsb=24),
+            Field("sharpness_exp", k.SHARPNESS_EXP_W, "and exponent, 0 to 12", lsb=24, reset=1),
         ),
         T1=Field("t1", k.KAPPA_W, "kappa up to which a line is enough", "U11.20", reset=THRESHOLDS[0]),
         T2=Field("t2", k.KAPPA_W, "kappa up to which a parabola is enough", "U11.20", reset=THRESHOLDS[1]),

@@ -287,7 +287,7 @@ package shade_pkg;
   localparam int REG_ERRORS = 52;  // 0x034, ro
   localparam int REG_SHARPNESS = 64;  // 0x040, rw
   localparam int REG_SHARPNESS_SHARPNESS_EXP_LSB = 24;
-  localparam int REG_SHARPNESS_RESET = 65536;  // 0x00010000
+  localparam int REG_SHARPNESS_RESET = 16842752;  // 0x01010000
   localparam int REG_T1 = 68;  // 0x044, rw
   localparam int REG_T1_RESET = 49152;  // 0x0000c000
   localparam int REG_T2 = 72;  // 0x048, rw
@@ -382,7 +382,7 @@ package shade_pkg;
     3'd0,  // variant
     2'd0,  // fixed_degree
     17'd65536,  // sharpness
-    4'd0,  // sharpness_exp
+    4'd1,  // sharpness_exp
     31'd49152,  // t1
     31'd327680,  // t2
     31'd1048576,  // t3

@@ -147,7 +147,7 @@ def productivity(folder: Path, size: int) -> Iterator[Claim]:
             note=f"{lines}{model}; multiplications alone {multiplications:.2f}, roots and divisions alone {roots:.2f}",
         )
     clocks = {
-        name: draw(size, POWERS[0], name, 1.0 if name in UNNORMALIZED else THRESHOLD)[0].run.clocks
+        name: draw(size, POWERS[0], name, 1.0 if name in UNNORMALIZED else THRESHOLD)[0].clocks
         for name in ("exact", *TABLE)
     }
     yield p4(

@@ -21,7 +21,9 @@ from sim.scene.camera import PROJECTIONS, Camera
 from sim.sources import BUILD
 
 VIEW, SURFACE = Camera(), Material()
-PATH_OF = {"degree": "poly", "evaluator": "poly", "variant": "normals", "threshold": "normals"}  # options of one path
+PATH_OF = {  # options of one path
+    "degree": "poly", "criterion": "poly", "evaluator": "poly", "variant": "normals", "threshold": "normals",
+}  # fmt: skip
 
 
 @click.group(
@@ -60,7 +62,11 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 )
 @click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
 @click.option("--threshold", default=0.9, help="Of path normals: length below which V1, V2, V4, V5 normalize, 0 to 1.")
+@click.option("--criterion", default=0.005, help="Of lambert: eta of triangles drawn without normalizing, 0 to 1.")
 @click.option("--lanes", default=1, help="Parallel lanes of the core: 1, 2 or 4.")
+@click.option(
+    "--light-unit", default="full", help="full: a node a clock; folded: six clocks a node, fewer multipliers."
+)
 @click.option("--model", default=SURFACE.model, help=f"Light: {', '.join(MODELS)}.")
 @click.option("--shininess", default=SURFACE.shininess, help="phong, blinn, schlick: exponent n, 1 to 1024.")
 @click.option("--roughness", default=SURFACE.roughness, help="cook-torrance, ward: slope m, 0.05 to 0.7.")

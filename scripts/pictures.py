@@ -5,7 +5,8 @@ docs/forms.png             P1's form and the refined one, and their errors
 docs/gallery.png           every model, energy scale and form
 docs/degrees.png           which degree the planner gives to which pixel
 docs/datapath.svg          shade_core, latencies from the contract
-docs/timing_poly_span.svg  its streams, from a waveform
+docs/timing_core.svg       its streams, from a waveform
+docs/timing_poly_span.svg  the streams of shade_poly_span, from a waveform
 docs/timing_horner_seq.svg the evaluator of P1, Fig. 9, step by step, from a waveform
 """
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,10 +23,13 @@ from tqdm import tqdm
 
 from golden import contract as k
 from golden import poly
-from golden.material import FORMS, Material
+from golden.material import FORMS, Material, planner_registers, registers
+from golden.normal import pack_lines
+from golden.registers import pack
 from scripts import gallery, svg, waves
 from scripts.papers import p1_arithmetic, p1_face
 from sim import frame
+from sim.core import WHOLE
 from sim.scene.camera import Camera
 from sim.sources import ROOT
 
@@ -107,6 +112,49 @@ def datapath(path: Path) -> None:
     made.save(path)
 
 
+Wave = dict[str, list[int]]
+
+
+def on_bus(wave: Wave, name: str, valid: str, word: Callable[[int], str]) -> list[str]:
+    """The words of a signal while it is valid."""
+    return [word(value) if used else "" for used, value in zip(wave[valid], wave[name], strict=True)]
+
+
+def timing_core(path: Path) -> None:
+    """Three spans, of 5, 1 and 3 pixels, in and out of the default core; what lies between is left out."""
+    surface = Material(shininess=128)
+    n, g = np.array([[-0.1, 0, 1], [0.2, 0.3, 0.9], [0.4, 0, 0.9]]), np.array([[0.08, 0, 0]] * 3)
+    n, g = (np.rint(part * (1 << k.STEP_F)).astype(int) for part in (n, g))
+    beats = pack_lines(n, g, [5, 1, 3], ONE, [7, 8, 9])
+    words = registers(surface, (0.3, 0.6, 0.8)) | planner_registers(surface)
+    span, pixel = "s_axis_span_t", "m_axis_pixel_t"
+    names = [span + name for name in ("valid", "ready", "data")]
+    names += [pixel + name for name in ("valid", "ready", "data", "user", "last")]
+    run, wave = waves.record("shade_core", names, s_axis_span_tdata=beats, **WHOLE, writes=pack(words))
+    first, given, end = run.taken[0], run.given[0], run.given[-1]
+    clocks = np.r_[first - 1 : run.taken[-1] + 3, given - 2 : end + 2]
+    wave = {name: values[clocks].tolist() for name, values in wave.items()}
+
+    bus = partial(on_bus, wave)
+    sent, came = span + "valid", pixel + "valid"
+    mask = (1 << k.TAG_W) - 1
+    rows = [
+        (sent, wave[sent]),
+        (span + "ready", wave[span + "ready"]),
+        ("span tdata, pixels", bus(span + "data", sent, lambda data: str(data >> k.LINE_COUNT_LSB & 0x1FFF))),
+        ("span tdata, tag", bus(span + "data", sent, lambda data: str(data >> k.LINE_TAG_LSB & mask))),
+        (came, wave[came]),
+        (pixel + "ready", wave[pixel + "ready"]),
+        ("pixel tdata, diffuse", bus(pixel + "data", came, lambda data: f"{(data & 0xFFFF) / ONE:.2f}")),
+        ("pixel tdata, specular", bus(pixel + "data", came, lambda data: f"{(data >> k.PIXEL_W) / ONE:.2f}")),
+        ("pixel tuser, tag", bus(pixel + "user", came, str)),
+        (pixel + "last", [valid & last for valid, last in zip(wave[came], wave[pixel + "last"], strict=True)]),
+    ]
+    title = f"shade_core: spans of 5, 1 and 3 pixels leave as {len(run.given)} pixels in {end - given + 1} clocks"
+    marks = {f"{given - first} clocks from span to first pixel": tuple(np.searchsorted(clocks, (first, given)))}
+    svg.timing(rows, 34, title, marks, (clocks - first).tolist()).save(path)
+
+
 def timing_poly_span(path: Path) -> None:
     """Three spans, of 5 (cubic), 2 (lit directly) and 3 pixels (parabola), in and out."""
     nodes = np.zeros((3, k.CHANNELS, k.NODE_COUNT))
@@ -119,10 +167,7 @@ def timing_poly_span(path: Path) -> None:
     run, wave = waves.record("shade_poly_span", names, s_axis_span_tdata=beats)
     wave = {name: values[: run.clocks + 1].tolist() for name, values in wave.items()}
 
-    def bus(name: str, valid: str, word: Callable[[int], str]) -> list[str]:
-        return [word(value) if used else "" for used, value in zip(wave[valid], wave[name], strict=True)]
-
-    given = wave[pixel + "valid"]
+    bus, given = partial(on_bus, wave), wave[pixel + "valid"]
     rows = [
         (span + "valid", wave[span + "valid"]),
         (span + "ready", wave[span + "ready"]),
@@ -178,6 +223,7 @@ def main() -> None:
         "gallery.png": every_model,
         "degrees.png": degrees,
         "datapath.svg": datapath,
+        "timing_core.svg": timing_core,
         "timing_poly_span.svg": timing_poly_span,
         "timing_horner_seq.svg": timing_horner_seq,
     }

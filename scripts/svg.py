@@ -54,14 +54,19 @@ class Svg:
         )
 
 
-def timing(rows: Sequence[tuple[str, Sequence]], cell: float, title: str, marks: dict[str, tuple[int, int]]) -> Svg:
+def timing(
+    rows: Sequence[tuple[str, Sequence]], cell: float, title: str, marks: dict[str, tuple[int, int]],
+    numbers: Sequence[int] | None = None,
+) -> Svg:  # fmt: skip
     """A timing diagram: a column a clock, each beginning with its rising edge; ``clk_i`` is drawn on top.
 
     ``rows``: (name, values), one value a clock. Numbers 0 and 1 throughout make a wave; otherwise values are words on a
-    bus, equal neighbours joined, "" for nothing of interest. ``marks``: arrows below the rows from a clock to a clock.
+    bus, equal neighbours joined, "" for nothing of interest. ``marks``: arrows below them from a column to a column.
+    ``numbers`` of the columns: where they jump, clocks are left out.
     """
     left, top, pitch, high = 172, 62, 27, 17
     clocks = len(rows[0][1])
+    numbers = range(clocks) if numbers is None else numbers
     made = Svg(left + clocks * cell + 16, top + pitch * (len(rows) + 1) + 30 * len(marks) + 14)
     made.text(16, 26, title, 14, "start", font_weight="bold")
 
@@ -69,7 +74,7 @@ def timing(rows: Sequence[tuple[str, Sequence]], cell: float, title: str, marks:
     for clock in range(clocks + 1):
         made.path(f"M{left + clock * cell} {top - 8}V{bottom}", FAINT, 0.6)
     for clock in range(clocks):
-        made.text(left + (clock + 0.5) * cell, top - 12, str(clock), 9, fill="#7b8691")
+        made.text(left + (clock + 0.5) * cell, top - 12, str(numbers[clock]), 9, fill="#7b8691")
 
     half = cell / 2
     wave = "".join(f"v{-high}h{half}v{high}h{half}" for _ in range(clocks))
@@ -83,6 +88,11 @@ def timing(rows: Sequence[tuple[str, Sequence]], cell: float, title: str, marks:
             made.path(f"M{left} {y - high * values[0]}{levels}", ACCENT, 1.6)
         else:
             _bus(made, left, y, cell, high, values)
+
+    for clock in range(1, clocks):
+        if numbers[clock] != numbers[clock - 1] + 1:
+            made.path(f"M{left + clock * cell} {top - 24}V{bottom}", "#ffffff", 7)
+            made.text(left + clock * cell, top - 12, "…", 12)
 
     for index, (words, (first, last)) in enumerate(marks.items()):
         x0, x1, y = left + first * cell, left + last * cell, bottom + 22 + 30 * index

@@ -31,30 +31,37 @@ TOLD = ("light_model", "light_range", "light_zero", "light_saturated", "normal_z
 
 @dataclass(frozen=True)
 class Lines:
-    """Spans as the core takes them: normal and increment (S, 3) S2.29, pixels, cosine of the ends S1.16, tag (S,)."""
+    """Spans as the core takes them: normal and increment (S, 3) S2.29, pixels, cosine of the ends S1.16, tag (S,).
+
+    ``flat`` (S,): the span's triangle passed P2's criterion.
+    """
 
     n: Ints
     g: Ints
     count: Ints
     cosine: Ints
     tag: Ints
+    flat: Ints
 
     @classmethod
-    def of(cls, spans: Spans) -> Lines:
-        """Quantized, to nearest. A span of one pixel needs no increment; slivers have some that no format could hold.
+    def of(cls, spans: Spans, flat: ArrayLike = False) -> Lines:
+        """Quantized, to nearest; ``flat`` is told of every triangle, or of all at once.
 
+        A span of one pixel needs no increment; slivers have some that no format could hold.
         Of others none exceeds 2: with both ends a component of a normal is within [-1, 1].
         """
         gradient = np.where(spans.count[:, None] > 1, spans.gradient, 0)
         n, g = (np.rint(part * (1 << k.STEP_F)).astype(np.int64) for part in (spans.normal, gradient))
         last = spans.normal + (spans.count[:, None] - 1) * gradient
         cosine = quantize(dot(unit(spans.normal), unit(last)))
-        return cls(n, g, spans.count.astype(np.int64), cosine, np.arange(len(spans)) % TAGS)
+        flat = np.asarray(flat, np.int64)
+        flat = flat[spans.triangle] if flat.ndim else np.full(len(spans), flat)
+        return cls(n, g, spans.count.astype(np.int64), cosine, np.arange(len(spans)) % TAGS, flat)
 
     @property
     def beats(self) -> NDArray[np.uint32]:
         """(S, 8): ``s_axis_span_tdata``."""
-        return pack_lines(self.n, self.g, self.count, self.cosine, self.tag)
+        return pack_lines(self.n, self.g, self.count, self.cosine, self.tag, self.flat)
 
 
 def quantize(value: ArrayLike) -> Ints:
@@ -90,10 +97,8 @@ def draw(
     run = model.run(s_axis_span_tdata=beats, **WHOLE, writes=writes, reads=reads)
     seconds = time.perf_counter() - began
     stage("compare")
-    wanted = golden.lane(
-        lines.n, lines.g, lines.count, words, cosine=lines.cosine,
-        evaluator=parameters["EVALUATOR"], form=parameters["FORM"],
-    )  # fmt: skip
+    built = {name.lower(): value for name, value in parameters.items() if name not in ("LANES", "FOLD")}
+    wanted = golden.lane(lines.n, lines.g, lines.count, words, flat=lines.flat, cosine=lines.cosine, **built)
     pixels, mismatches, first = compare(run.outputs, lines, beats, wanted, parameters["LANES"])
     if first.get("input", "none") != "none":
         first["again"] = model.again(s_axis_span_tdata=beats[first["span"]], **WHOLE, writes=writes)

@@ -20,6 +20,8 @@ from tqdm import tqdm
 
 from golden import contract
 from golden.material import FORMS, Material, planner_registers, registers
+from golden.plan import criterion
+from golden.reference.light import dot
 from sim import core, tools
 from sim.core import quantize
 from sim.errors import UserError
@@ -32,8 +34,12 @@ EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_F
 VARIANTS = {name.removeprefix("VARIANT_"): code for name, code in contract.constants().items() if "VARIANT_V" in name}
 VARIANTS |= {"refined": contract.VARIANT_REFINED, "exact": contract.VARIANT_EXACT}
 LANES = (1, 2, 4)
-RANGES = {"threshold": (0.0, 1.0), "degree": (1, 3)}
+# parameters of the core; a folded one has the models FOLDED_MODELS alone
+LIGHT_UNITS = {"full": {}, "folded": {"FOLD": 6, "REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}}
+FOLDED_MODELS = ("lambert", "blinn")
+RANGES = {"threshold": (0.0, 1.0), "degree": (1, 3), "criterion": (0.0, 1.0)}
 ONE = 1 << contract.INTENSITY_F
+CHOICES = {"path": PATHS, "evaluator": EVALUATORS, "lanes": LANES, "light_unit": LIGHT_UNITS, "variant": VARIANTS}
 DIFFERENCE_GAIN = 256  # an error of 1/256, one step of an 8-bit picture, is white
 BACKGROUND = np.array([0.11, 0.12, 0.14])
 
@@ -50,19 +56,24 @@ class Settings:
     path: str = "poly"
     evaluator: str = "fdiff"
     lanes: int = 1
+    light_unit: str = "full"
     variant: str = "refined"  # of path normals, and the threshold below which V1, V2, V4 and V5 normalize
     threshold: float = 0.9
     degree: int = 3  # of every span in form paper
+    criterion: float = 0.005  # P2's eta, up to which Lambert's light alone draws a triangle without normalizing
 
     def __post_init__(self) -> None:
-        for name, allowed in {"path": PATHS, "evaluator": EVALUATORS, "lanes": LANES, "variant": VARIANTS}.items():
+        for name, allowed in CHOICES.items():
             if getattr(self, name) not in allowed:
-                raise UserError(f"--{name}: {getattr(self, name)!r} is none of {', '.join(map(str, allowed))}")
+                option = name.replace("_", "-")
+                raise UserError(f"--{option}: {getattr(self, name)!r} is none of {', '.join(map(str, allowed))}")
         for name, (low, high) in RANGES.items():
             if not low <= getattr(self, name) <= high:  # also refuses NaN
                 raise UserError(f"--{name}: {getattr(self, name)} is out of range, allowed is {low} to {high}")
         if not 1e-6 < np.abs(self.light).max() < 1e6:  # also refuses NaN
             raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
+        if self.light_unit == "folded" and (self.path != "poly" or self.material.model not in FOLDED_MODELS):
+            raise UserError(f"--light-unit: folded is allowed with --path poly and --model {', '.join(FOLDED_MODELS)}")
 
     @property
     def form(self) -> str:
@@ -72,7 +83,8 @@ class Settings:
     @property
     def parameters(self) -> dict[str, int]:
         """Of ``shade_core``."""
-        return {"LANES": self.lanes, "EVALUATOR": EVALUATORS[self.evaluator], "FORM": FORMS[self.form]}
+        chosen = {"LANES": self.lanes, "EVALUATOR": EVALUATORS[self.evaluator], "FORM": FORMS[self.form]}
+        return chosen | LIGHT_UNITS[self.light_unit]
 
     @property
     def registers(self) -> dict[str, int]:
@@ -148,6 +160,17 @@ def normals(spans: Spans, size: int) -> NDArray[np.float64]:
     return spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
 
 
+def flat(corners: NDArray[np.float64], threshold: float, form: int) -> NDArray[np.bool_]:
+    """(F,): triangles whose unit normals (F, 3, 3) pass P2's criterion: eta up to the threshold.
+
+    >>> flat(np.array([[[0, 0, 1], [0, 0, 1], [0, 0.6, 0.8]]]), 0.1, contract.FORM_REFINED)  # eta = 2 (1 - 0.9487)
+    array([False])
+    """
+    cosines = (quantize(dot(corners[:, i], corners[:, i - 1])) for i in range(3))
+    _, curved, _, _ = criterion(*cosines, round(threshold * (1 << contract.ETA_F)), form)
+    return curved == 0
+
+
 def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     """Render a frame through the RTL and compare it with the golden model and with float64.
 
@@ -165,9 +188,11 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         camera, surface = settings.camera, settings.material
         mesh = mesh or load_mesh(settings.mesh, settings.subdivide)
         stage("scan")
-        spans = scan_convert(camera.project(mesh), mesh.faces, camera.size)
+        screen = camera.project(mesh)
+        spans = scan_convert(screen, mesh.faces, camera.size)
         visible = resolve(spans, camera.size)
-        drawn = core.draw(core.Lines.of(spans), settings.registers, stage, **settings.parameters)
+        lines = core.Lines.of(spans, flat(screen.normals[mesh.faces], settings.criterion, FORMS[settings.form]))
+        drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
         normal = normals(spans, camera.size)
@@ -181,6 +206,8 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     if settings.path == "poly":
         degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
         more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.golden.records}
+        if surface.model == "lambert":
+            more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
     else:
         more = {"variant": settings.variant, "threshold": settings.threshold}
     found = {"first_mismatch": drawn.first_mismatch, "counter_mismatches": drawn.counter_mismatches}
@@ -196,6 +223,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         "form": settings.form,
         "path": settings.path,
         "lanes": settings.lanes,
+        "light_unit": settings.light_unit,
         **{name: _plain(value) for name, value in vars(surface).items() if name != "form"},
         "light": _plain(settings.light),
         "triangles": len(mesh.faces),

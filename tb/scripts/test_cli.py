@@ -203,6 +203,10 @@ VIEWS = {
     "matt": ["--shininess", "1"],
     "light_behind": ["--light", "0", "0", "-1"],
     "light_at_the_eye": ["--light", "0", "0", "5", "--model", "phong"],
+    "matt_and_flat": ["--model", "lambert", "--criterion", "0.1"],
+    "matt_and_flat_paper": ["--model", "lambert", "--criterion", "0.03", "--form", "paper"],
+    "folded": ["--light-unit", "folded"],
+    "folded_matt": ["--light-unit", "folded", "--model", "lambert", "--lanes", "2", "--evaluator", "horner"],
     "last_of_two": ["--size", "15", "--size", "24"],
 }
 
@@ -412,6 +416,7 @@ BAD_NUMBERS = [
     *((["--pitch", value], "--pitch") for value in ("nan", "90.001", "-inf", "up", "")),
     *((["--zoom", value], "--zoom") for value in ("nan", "0", "-0.0", "0.049", "50.1", "1e-320", "-1", "")),
     *((["--field-of-view", value], "--field-of-view") for value in ("nan", "0", "0.99", "120.1", "180", "wide")),
+    *((["--criterion", value], "--criterion") for value in ("nan", "-0.001", "1.01", "inf", "", "P2")),
     *((["--threshold", value], "--threshold") for value in ("nan", "-0.1", "1.01", "inf", "", "high")),
     # out of range counts even where the projection does not use it
     (["--projection", "orthographic", "--field-of-view", "400"], "--field-of-view"),
@@ -427,6 +432,12 @@ BAD_NAMES = [
     (["--energy", "phong"], "--energy: 'phong' is none of none, blinn, blinn-modified, blinn-ndf, blinn-height"),
     *((["--model", name, "--energy", "blinn"], "--energy") for name in MODELS if name != "blinn"),
     *((["--path", name], "--path") for name in ("", "curve", "Poly", "../poly")),
+    *((["--light-unit", name], "--light-unit") for name in ("", "Full", "6", "half")),
+    (
+        ["--light-unit", "folded", "--model", "ward"],
+        "--light-unit: folded is allowed with --path poly and --model lamb",
+    ),
+    (["--light-unit", "folded", "--path", "normals"], "--light-unit: folded is allowed"),
     *((["--variant", name], "--variant") for name in ("", "V0", "V7", "v1", "REFINED", "V1..V6")),
     *((["--projection", name], "--projection") for name in ("", "iso", "PERSPECTIVE", "orthographic\t")),
     *((["--mesh", name], "--mesh") for name in ("",)),
@@ -463,6 +474,7 @@ BAD_SHAPES = [
 ]
 OTHER_PATH = [
     *((["--path", "normals", *option], option[0]) for option in (["--degree", "3"], ["--evaluator", "fdiff"])),
+    (["--path", "normals", "--criterion", "0"], "--criterion"),
     *((["--path", "poly", *option], option[0]) for option in (["--variant", "refined"], ["--threshold", "0.9"])),
     (["--variant", "V5"], "--variant: is without effect on path poly, allowed with --path normals"),
     (["--path", "normals", "--form", "paper", "--degree", "2"], "--degree"),

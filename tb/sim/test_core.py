@@ -41,8 +41,18 @@ def test_lines() -> None:
     assert lines.g.tolist() == [[1 << 29, 2, -1 << 29], [0, 0, 0]]
     assert lines.cosine.tolist() == [0, ONE]
     assert lines.tag.tolist() == [0, 1]
+    assert lines.flat.tolist() == [0, 0]
     assert lines.beats[0].tolist() == [0, 0, 1 << 29, 1 << 29, 2, 7 << 29, 2, 0]
     assert lines.beats[1].tolist() == [1 << 28, 0, 0, 0, 0, 0, 1 | 1 << 16, ONE]
+
+
+def test_flat_lines() -> None:
+    """The criterion's answer belongs to a triangle, the bit to each of its spans."""
+    three = spans([2, 1, 5], [[0, 0, 1]] * 3, [[0, 0, 0]] * 3)
+    three.triangle[:] = 1, 1, 0
+    lines = core.Lines.of(three, [False, True])
+    assert lines.flat.tolist() == [1, 1, 0]
+    assert (lines.beats[:, -1] >> k.LINE_FLAT % 32 & 1).tolist() == [1, 1, 0]
 
 
 @pytest.fixture

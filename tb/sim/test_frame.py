@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -74,6 +75,9 @@ def test_pictures() -> None:
         ({"lanes": 3}, "--lanes: 3 is none of 1, 2, 4"),
         ({"variant": "V7"}, "--variant: 'V7' is none of V1, V2"),
         ({"threshold": float("nan")}, "--threshold: nan is out of range, allowed is 0.0 to 1.0"),
+        ({"light_unit": "half"}, "--light-unit: 'half' is none of full, folded"),
+        ({"light_unit": "folded", "path": "normals"}, "--light-unit: folded is allowed with --path poly and --model"),
+        ({"criterion": -0.1}, "--criterion: -0.1 is out of range, allowed is 0.0 to 1.0"),
         ({"degree": 4}, "--degree: 4 is out of range, allowed is 1 to 3"),
         ({"light": (0.0, 0.0, 0.0)}, "--light: (0.0, 0.0, 0.0) is no direction"),
         ({"light": (1e308, 1e308, 0.0)}, "is no direction"),
@@ -96,6 +100,27 @@ def test_registers() -> None:
 
 
 # ---- whole frames ------------------------------------------------------------------------------------------------
+
+
+def test_flat_triangles() -> None:
+    """P2's criterion saves evaluations of Lambert's light on what is nearly flat, and costs accuracy beyond that."""
+    matt = frame.Settings(camera=Camera(256), material=Material("lambert"))
+    none, some, every = (frame.render(replace(matt, criterion=eta)).report for eta in (0.0, 0.005, 1.0))
+    assert [report["mismatches"] for report in (none, some, every)] == [0, 0, 0]
+    assert none["flat_spans"] < 0.01 * some["flat_spans"] < 0.01 * every["flat_spans"] == 0.01 * every["spans"]
+    assert none["light_evaluations"] >= some["light_evaluations"] > every["light_evaluations"]
+    assert some["nmse_diffuse"] < 1.2 * none["nmse_diffuse"]
+    assert every["nmse_diffuse"] > 10 * none["nmse_diffuse"]
+
+
+def test_folded_light_draws_the_same() -> None:
+    """With fewer multipliers, in more clocks."""
+    full, folded = (
+        frame.render(frame.Settings(mesh="head", camera=Camera(64), light_unit=unit)) for unit in frame.LIGHT_UNITS
+    )
+    assert folded.report["mismatches"] == 0
+    assert np.array_equal(full.intensity, folded.intensity)
+    assert full.report["cycles"] < folded.report["cycles"] < 6.5 * full.report["cycles"]
 
 
 @pytest.mark.parametrize("lanes", frame.LANES)

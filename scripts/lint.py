@@ -30,6 +30,7 @@ from scripts.points import REFUSED, points
 from sim.errors import UserError
 from sim.sources import BUILD, ROOT, Point, label, modules, sources
 from sim.tools import environment
+from sim.verilate import reached
 
 RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
@@ -114,7 +115,7 @@ def yosys(module: str, point: Point) -> list[str]:
     """Faults that Yosys finds with either reader, or in the word-level netlist."""
     folder = BUILD / "lint" / re.sub(r"\W+", "_", label(module, point))
     shutil.rmtree(folder, ignore_errors=True)
-    files = " ".join(os.path.relpath(path, folder) for path in sources())
+    files = " ".join(os.path.relpath(path, folder) for path in reached(module))
     chosen = "".join(f" -chparam {name} {value}" for name, value in point.items())
     given = "".join(f" -G {name}={value}" for name, value in point.items())
     rules = """

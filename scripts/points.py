@@ -67,7 +67,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_node_walk": [{"CREDIT_LOG2": 1}, {"PACE": 6}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
     "shade_lane": [{"EVALUATOR": 0, "FORM": 0, **SMALL}, FOLDED],
-    "shade_core": [{"LANES": 4, "COLOUR": 1, **FOLDED}],
+    "shade_core": [{"LANES": 2, "COLOUR": 1, **FOLDED}],
 }
 
 REFUSED: dict[str, list[Point]] = {

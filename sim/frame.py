@@ -206,8 +206,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     if settings.path == "poly":
         degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
         more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.golden.records}
-        if surface.model == "lambert":
-            more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
+        more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
     else:
         more = {"variant": settings.variant, "threshold": settings.threshold}
     found = {"first_mismatch": drawn.first_mismatch, "counter_mismatches": drawn.counter_mismatches}

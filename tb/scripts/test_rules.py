@@ -51,6 +51,7 @@ def toy(tmp_path, monkeypatch) -> Path:
         "CATALOGUE": tmp_path / "rtl" / "README.md",
         "BUILD": tmp_path / "build",
         "sources": lambda: [path],
+        "reached": lambda module: [path],
     }.items():
         monkeypatch.setattr(lint, name, value)
     return path

@@ -17,7 +17,7 @@ def grid(**choices: list[int]) -> list[Point]:
 
 
 POINTS: dict[str, list[Point]] = {
-    "shade_delay": [{"DEPTH": 0}, {"WIDTH": 1, "DEPTH": 1}, {"WIDTH": 33, "DEPTH": 3}],
+    "shade_delay": [{"DEPTH": 0}, {"DEPTH": 17}, {"WIDTH": 1, "DEPTH": 1}, {"WIDTH": 33, "DEPTH": 3}],
     "shade_valid": [{"DEPTH": 2}],
     "shade_round": [
         {"WIDTH": 2, "DROP": 1},

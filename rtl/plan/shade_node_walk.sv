@@ -127,33 +127,54 @@ module shade_node_walk #(
     if (rst_i) next_valid_q <= 1'b0;
   end
 
-  // ---- the run in work ---------------------------------------------------------------------------------------
-  logic busy_q, first_q, shared_q, more_q, flat_q, last_record_q, some_credit_q;
-  logic issue, end_record, end_run;
-  logic [1:0] slot_q, last_slot_q;
+  // ---- the run in work: whether a node goes and whether it is the last one is known a clock before ---------------------
+  logic busy_q, first_q, shared_q, more_q, flat_q, last_record_q, go_q, end_record_q;
+  logic busy_d, first_d, shared_d, last_record_d;
+  logic end_run;
+  logic [1:0] slot_q, slot_d, last_slot_q, last_slot_d;
   logic [3*STEP_W-1:0] node_q, step_q;
   logic [COUNT_W-1:0] records_q, count_q;
   logic [DEGREE_W-1:0] degree_q;
   logic [TAG_W-1:0] tag_q;
   logic [CREDIT_LOG2:0] credit_q, credit_d;
-  logic on_pace;
+  logic pace_d;
   logic far;  // the next node of a cubic lies half a record away
-  assign issue      = busy_q && (!first_q || some_credit_q) && on_pace;
-  assign end_record = slot_q == last_slot_q;
-  assign end_run    = end_record && last_record_q;
-  assign load       = next_valid_q && (!busy_q || (issue && end_run));
-  assign far        = degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;
-  assign credit_d   = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(issue && first_q);
+  assign end_run  = go_q && end_record_q && last_record_q;
+  assign load     = next_valid_q && (!busy_q || end_run);
+  assign far      = degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;
+  assign credit_d = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(go_q && first_q);
+  always_comb begin
+    busy_d        = load || (busy_q && !end_run);
+    first_d       = first_q;
+    shared_d      = shared_q;
+    slot_d        = slot_q;
+    last_slot_d   = last_slot_q;
+    last_record_d = last_record_q;
+    if (load) begin
+      first_d       = 1'b1;
+      shared_d      = next_shared;
+      slot_d        = {1'b0, next_shared};
+      last_slot_d   = next_degree == '0 ? 2'(next_count - ONE) : next_degree;
+      last_record_d = next_single;
+    end else if (go_q) begin
+      first_d = end_record_q;
+      if (end_record_q) begin
+        shared_d      = degree_q != '0;
+        slot_d        = {1'b0, degree_q != '0};
+        last_record_d = records_q == COUNT_W'(2);
+      end else begin
+        slot_d = slot_q + 2'd1;
+      end
+    end
+  end
 
   if (PACE == 1) begin : g_every_clock
-    assign on_pace = 1'b1;
+    assign pace_d = 1'b1;
   end else begin : g_pace
-    logic [2:0] phase_q;  // counts as in the folded units behind, which take a node in phase 0
-    assign on_pace = phase_q == 3'(PACE - 1);
-    always_ff @(posedge clk_i) begin
-      phase_q <= on_pace ? '0 : phase_q + 3'd1;
-      if (rst_i) phase_q <= '0;
-    end
+    logic [2:0] phase_q, phase_d;  // counts as in the folded units behind, which take a node in phase 0
+    assign phase_d = phase_q == 3'(PACE - 1) ? '0 : phase_q + 3'd1;
+    assign pace_d  = phase_d == 3'(PACE - 1);
+    always_ff @(posedge clk_i) phase_q <= rst_i ? '0 : phase_d;
   end
 
   for (genvar c = 0; c < 3; c++) begin : g_component
@@ -162,43 +183,35 @@ module shade_node_walk #(
     assign step = load ? next_step_q[c*STEP_W+:STEP_W] : step_q[c*STEP_W+:STEP_W] << far;
     always_ff @(posedge clk_i) begin
       if (load) node_q[c*STEP_W+:STEP_W] <= next_fresh ? next_n_q[c*STEP_W+:STEP_W] : node + step;
-      else if (issue && !end_run) node_q[c*STEP_W+:STEP_W] <= node + step;
+      else if (go_q && !end_run) node_q[c*STEP_W+:STEP_W] <= node + step;
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (load) begin
-      first_q     <= 1'b1;
-      shared_q    <= next_shared;
-      slot_q      <= {1'b0, next_shared};
-      last_slot_q <= next_degree == '0 ? 2'(next_count - ONE) : next_degree;
-      records_q   <= next_records;
-      last_record_q <= next_single;
-      count_q     <= next_count;
-      degree_q    <= next_degree;
-      step_q      <= next_step_q;
-      more_q      <= next_more;
-      flat_q      <= next_flat;
-      tag_q       <= next_tag;
-    end else if (issue) begin
-      first_q <= end_record;
-      if (end_record) begin
-        shared_q  <= degree_q != '0;
-        slot_q    <= {1'b0, degree_q != '0};
-        records_q <= records_q - ONE;
-        last_record_q <= records_q == COUNT_W'(2);
-      end else begin
-        slot_q <= slot_q + 2'd1;
-      end
-    end
-    if (load) busy_q <= 1'b1;
-    else if (issue && end_run) busy_q <= 1'b0;
+    first_q       <= first_d;
+    shared_q      <= shared_d;
+    slot_q        <= slot_d;
+    last_slot_q   <= last_slot_d;
+    end_record_q  <= slot_d == last_slot_d;
+    last_record_q <= last_record_d;
+    busy_q        <= busy_d;
     credit_q      <= credit_d;
-    some_credit_q <= credit_d != '0;
+    go_q          <= busy_d && (!first_d || credit_d != '0) && pace_d;
+    if (load) begin
+      records_q <= next_records;
+      count_q   <= next_count;
+      degree_q  <= next_degree;
+      step_q    <= next_step_q;
+      more_q    <= next_more;
+      flat_q    <= next_flat;
+      tag_q     <= next_tag;
+    end else if (go_q && end_record_q) begin
+      records_q <= records_q - ONE;
+    end
     if (rst_i) begin
-      busy_q        <= 1'b0;
-      credit_q      <= (CREDIT_LOG2 + 1)'(1 << CREDIT_LOG2);
-      some_credit_q <= 1'b1;
+      busy_q   <= 1'b0;
+      go_q     <= 1'b0;
+      credit_q <= (CREDIT_LOG2 + 1)'(1 << CREDIT_LOG2);
     end
   end
 
@@ -215,13 +228,13 @@ module shade_node_walk #(
     slot_o          <= slot_q;
     first_o         <= first_q;
     shared_o        <= shared_q && first_q;
-    last_o          <= end_record;
+    last_o          <= end_record_q;
     count_o         <= count_q;
     degree_o        <= degree_q;
     more_o          <= more_q;
     flat_o          <= flat_q;
     tag_o           <= tag_q;
-    valid_o         <= issue;
+    valid_o         <= go_q;
     if (rst_i) valid_o <= 1'b0;
   end
 endmodule

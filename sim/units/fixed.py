@@ -64,7 +64,11 @@ def _steps(form: str) -> Iterator[Case]:
 def _delay(form: str) -> Iterator[Case]:
     if form != "refined":
         return
-    for parameters, width in (({"WIDTH": 20, "DEPTH": 0}, 20), ({"WIDTH": 12, "DEPTH": 3}, 12)):
+    for parameters, width in (
+        ({"WIDTH": 20, "DEPTH": 0}, 20),
+        ({"WIDTH": 12, "DEPTH": 3}, 12),
+        ({"WIDTH": 16, "DEPTH": 41}, 16),
+    ):
         same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
         yield Case(
             "shade_delay", form, parameters, same, same, same, None, every({"d_i": (0, (1 << width) - 1)}),

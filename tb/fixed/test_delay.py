@@ -4,7 +4,7 @@ from tb.bench import Bench, checked
 from tb.runner import points, simulate
 
 
-@points({}, {"WIDTH": 33, "DEPTH": 5}, {"WIDTH": 1, "DEPTH": 0})
+@points({}, {"WIDTH": 33, "DEPTH": 5}, {"WIDTH": 1, "DEPTH": 0}, *({"DEPTH": clocks} for clocks in (8, 16, 17, 47)))
 def test_cocotb(point):
     simulate("shade_delay", point)
 

@@ -154,6 +154,7 @@ COLOUR_DATA_W = 3 * PIXEL_W  # red in the low third, then green, blue
 
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
 LATENCY_MUL = 2  # partial products, their sum
+LATENCY_MUL_IN = LATENCY_MUL + 1  # STAGES = 3: the operands in front of them
 LATENCY_SQUARE_FABRIC = 4  # a tree of adders
 LATENCY_THIRD = 5  # four adders, one rounding
 LATENCY_COEF = 3 + LATENCY_THIRD + 1  # differences, two levels of adders, x/3, sum with what is not divided
@@ -189,7 +190,7 @@ LATENCY_LOBE_POWER = LATENCY_MUL + 2  # square, difference, choice of the half
 LATENCY_LOBE = LATENCY_LOBE_BASE + 2 * LATENCY_LOBE_POWER + 2 * (LATENCY_SQUARE_FABRIC + 2)  # POWER = 4
 LATENCY_LOBE_FOLDED = 3 + 6 * (LATENCY_MUL + 3)  # POWER = 4: the shifted x, six turns of the multiplier
 LATENCY_GEOMETRY = 1 + 2 * (LATENCY_MUL + 1) + LATENCY_RSQRT + 1 + LATENCY_MUL + 2  # see shade_geometry
-LATENCY_GAIN = 3 * LATENCY_MUL + 3  # products, two shifter levels, rounding
+LATENCY_GAIN = 3 * LATENCY_MUL_IN + 3  # products, two shifter levels, rounding
 LATENCY_FACTOR = max(LATENCY_LOBE + 1, LATENCY_GEOMETRY)  # the lobe or what stands for it; what it is multiplied by
 LATENCY_ANGLES = LATENCY_REFLECT + 1 + LATENCY_VERSINE  # R, choice of R, V or N, H
 LATENCY_LIGHT = LATENCY_ANGLES + LATENCY_FACTOR + LATENCY_GAIN

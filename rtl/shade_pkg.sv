@@ -172,6 +172,7 @@ package shade_pkg;
 
   // latencies, in clocks from an input taken to the output it causes
   localparam int LATENCY_MUL = 2;  // partial products, their sum
+  localparam int LATENCY_MUL_IN = 3;  // STAGES = 3: the operands in front of them
   localparam int LATENCY_SQUARE_FABRIC = 4;  // a tree of adders
   localparam int LATENCY_THIRD = 5;  // four adders, one rounding
   localparam int LATENCY_COEF = 9;  // differences, two levels of adders, x/3, sum with what is not divided
@@ -207,12 +208,12 @@ package shade_pkg;
   localparam int LATENCY_LOBE = 31;  // POWER = 4
   localparam int LATENCY_LOBE_FOLDED = 33;  // POWER = 4: the shifted x, six turns of the multiplier
   localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
-  localparam int LATENCY_GAIN = 9;  // products, two shifter levels, rounding
+  localparam int LATENCY_GAIN = 12;  // products, two shifter levels, rounding
   localparam int LATENCY_FACTOR = 32;  // the lobe or what stands for it; what it is multiplied by
   localparam int LATENCY_ANGLES = 17;  // R, choice of R, V or N, H
-  localparam int LATENCY_LIGHT = 58;
+  localparam int LATENCY_LIGHT = 61;
   localparam int LATENCY_LIGHT_FOLDED = 56;  // the versine's six products, the gain's three
-  localparam int LATENCY_LIGHT_LOCAL = 73;
+  localparam int LATENCY_LIGHT_LOCAL = 76;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
   localparam int LATENCY_KAPPA_FOLDED = 20;  // products one after the other
@@ -222,13 +223,13 @@ package shade_pkg;
   localparam int LATENCY_NODE_WALK = 4;  // the choice of a run, its step, the run, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
-  localparam int LATENCY_RECORD = 83;  // normal to pixel
-  localparam int LATENCY_LANE = 137;
-  localparam int LATENCY_LANE_NORMALS = 126;  // the path of normals
+  localparam int LATENCY_RECORD = 86;  // normal to pixel
+  localparam int LATENCY_LANE = 140;
+  localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
-  localparam int LATENCY_CORE = 138;  // the door
+  localparam int LATENCY_CORE = 141;  // the door
   localparam int LATENCY_PAINT = 8;
-  localparam int LATENCY_PHONG = 83;  // span, ..., clamp, FIFO
+  localparam int LATENCY_PHONG = 86;  // span, ..., clamp, FIFO
 
   // products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric
   localparam int PRODUCTS_KAPPA = 4;  // for each new increment

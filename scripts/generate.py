@@ -254,8 +254,8 @@ def interface() -> str:
         ]
     lines += [
         "", "## Timing", "",
-        "Streams of `shade_core`, from a waveform (`python -m scripts.pictures`). Nothing comes before its turn; `tready` may be",
-        "taken back at any clock on either side.", "", "![Three spans through the core](timing_core.svg)", "",
+        "Streams of `shade_core`, from a waveform (`python -m scripts.pictures`).", "",
+        "![Three spans through the core](timing_core.svg)", "",
         "## Latencies", "",
         "In clocks from an input taken to the output that it causes. The module is named like the constant.", "",
         "| constant | clocks | made of |", "|---|---|---|",

@@ -129,6 +129,7 @@ def yosys(module: str, point: Point) -> list[str]:
         hierarchy -check -top {module}{chosen}
         {rules}
         synth -flatten -run begin:fine
+        opt
         check -assert
         design -reset
         read_slang --keep-hierarchy --top {module}{given} {files}

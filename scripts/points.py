@@ -25,7 +25,7 @@ POINTS: dict[str, list[Point]] = {
         {"WIDTH": 20, "DROP": 3, "OUT_W": 17},
     ],
     "shade_saturate": [{"WIDTH": 3, "OUT_W": 1}, {"WIDTH": 40, "OUT_W": 8}],
-    "shade_mul": [*grid(A_W=[2, 18, 19, 35], STAGES=[0, 2]), {"A_W": 17, "B_W": 2}],
+    "shade_mul": [*grid(A_W=[2, 18, 19, 35], STAGES=[0, 2]), {"A_W": 17, "B_W": 2}, {"STAGES": 3}],
     "shade_limit": [{"WIDTH": 19}, {"WIDTH": 3, "OUT_W": 2}],
     "shade_clamp": [{"WIDTH": 20, "F": 18}, {"WIDTH": 3, "F": 1}],
     "shade_square": [{"WIDTH": 2}, {"WIDTH": 11}],

@@ -10,7 +10,7 @@
 //
 // What shade_lane is measured against: the same packets, and the pixels that it comes close to. FORM, REFLECT, DIVIDE: see
 // shade_light. The pipeline never stalls: a pixel starts with a credit for its place in the FIFO; no combinational path leads
-// from an input to an output. One pixel a clock, no bubble between spans. Latency LATENCY_PHONG = 83 clocks from a span to
+// from an input to an output. One pixel a clock, no bubble between spans. Latency LATENCY_PHONG = 86 clocks from a span to
 // its first pixel, REFLECT = 0: fewer by LATENCY_REFLECT.
 // Example: normal (0, 0, 1), increment 0, 5 pixels, light from the viewer -> five pixels of full intensity.
 module shade_phong #(

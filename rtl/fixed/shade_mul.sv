@@ -6,7 +6,8 @@
 //   p = (ah b) 2^17 + al b
 //
 // STAGES = 2: a register behind every product, then one behind their sum; latency LATENCY_MUL = 2 clocks, one
-// product a clock. STAGES = 0: combinational, for an evaluator whose own register stands behind it.
+// product a clock. STAGES = 3: registers in front as well, LATENCY_MUL_IN = 3, for operands that come from afar.
+// STAGES = 0: combinational, for an evaluator whose own register stands behind it.
 // Exact, no rounding. Example: a = -3, b = 5 -> p = -15.
 module shade_mul #(
   parameter int A_W    = 30,
@@ -18,8 +19,8 @@ module shade_mul #(
   input  logic signed [    B_W-1:0] b_i,
   output logic signed [A_W+B_W-1:0] p_o
 );
-  if (A_W < 2 || A_W > 35 || B_W < 2 || B_W > 18 || (STAGES != 0 && STAGES != shade_pkg::LATENCY_MUL)) begin : g_check
-    $error("shade_mul: A_W must be in 2 .. 35, B_W in 2 .. 18 and STAGES 0 or LATENCY_MUL");
+  if (A_W < 2 || A_W > 35 || B_W < 2 || B_W > 18 || STAGES < 0 || STAGES == 1 || STAGES > 3) begin : g_check
+    $error("shade_mul: A_W must be in 2 .. 35, B_W in 2 .. 18 and STAGES 0, LATENCY_MUL or LATENCY_MUL_IN");
   end
 
   localparam int P_W = A_W + B_W;
@@ -27,17 +28,29 @@ module shade_mul #(
   localparam bit CUT = A_W > 18;
   localparam int HIGH_W = CUT ? A_W - LOW : A_W;
 
+  logic signed [A_W-1:0] a;
+  logic signed [B_W-1:0] b;
+  if (STAGES == shade_pkg::LATENCY_MUL_IN) begin : g_in
+    always_ff @(posedge clk_i) begin
+      a <= a_i;
+      b <= b_i;
+    end
+  end else begin : g_direct
+    assign a = a_i;
+    assign b = b_i;
+  end
+
   logic signed [HIGH_W-1:0] ah;
   logic signed [HIGH_W+B_W-1:0] high, high_p;  // ah b, and behind its register
   logic signed [P_W-1:0] sum;
-  assign ah   = a_i[A_W-1-:HIGH_W];
-  assign high = ah * b_i;
+  assign ah   = a[A_W-1-:HIGH_W];
+  assign high = ah * b;
 
   if (CUT) begin : g_cut
     logic signed [LOW:0] al;
     logic signed [LOW+B_W:0] low, low_p;
-    assign al  = {1'b0, a_i[LOW-1:0]};
-    assign low = al * b_i;
+    assign al  = {1'b0, a[LOW-1:0]};
+    assign low = al * b;
     if (STAGES == 0) begin : g_wire
       assign low_p = low;
     end else begin : g_register

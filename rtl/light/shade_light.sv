@@ -7,7 +7,7 @@
 //   flags_o                            bits LIGHT_*
 //
 // Settings must not change while nodes are inside. FORM, REFLECT, DIVIDE, rounding, overflow: see shade_reflectance.
-// Latency LATENCY_LIGHT = 58 clocks, REFLECT = 0: fewer by LATENCY_REFLECT. One node a clock. Source: P1, sections II, III.
+// Latency LATENCY_LIGHT = 61 clocks, REFLECT = 0: fewer by LATENCY_REFLECT. One node a clock. Source: P1, sections II, III.
 // Example: Blinn, N = L = (0, 0, 1) -> diffuse = 1, specular = gain.
 module shade_light #(
   parameter int FORM    = shade_pkg::FORM_REFINED,

@@ -51,7 +51,7 @@ def _steps(form: str) -> Iterator[Case]:
             "shade_square_fabric", form, {"WIDTH": width}, square, square, square, None,
             every({"x_i": (0, (1 << width) - 1)}), (width - 2).bit_length(), unit_f=0,
         )  # fmt: skip
-    for a_w, b_w, stages in ((30, 18, 2), (18, 18, 2), (35, 18, 0), (10, 10, 2), (20, 2, 2)):
+    for a_w, b_w, stages in ((30, 18, 2), (18, 18, 2), (30, 18, 3), (35, 18, 0), (10, 10, 2), (20, 2, 2)):
         ranges = {"a_i": signed_range(a_w), "b_i": signed_range(b_w)}
         product = lambda i: {"p_o": fixed.mul(i["a_i"], i["b_i"])}  # noqa: E731
         small = a_w + b_w <= 22

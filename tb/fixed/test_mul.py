@@ -7,7 +7,7 @@ from tb.bench import Bench, checked
 from tb.runner import points, simulate
 
 
-@points({}, {"A_W": 18, "STAGES": 0}, {"A_W": 35, "STAGES": 0}, {"A_W": 18}, {"A_W": 19, "B_W": 2})
+@points({}, {"A_W": 18, "STAGES": 0}, {"A_W": 35, "STAGES": 0}, {"A_W": 18}, {"STAGES": 3}, {"A_W": 19, "B_W": 2})
 def test_cocotb(point):
     simulate("shade_mul", point)
 

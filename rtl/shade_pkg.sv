@@ -184,7 +184,7 @@ package shade_pkg;
   localparam int LATENCY_FIFO_BLOCK = 3;  // one more
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
-  localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
+  localparam int LATENCY_UNIT = 20;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT_FOLDED = 30;  // five turns of the multiplier
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
@@ -224,10 +224,10 @@ package shade_pkg;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
-  localparam int LATENCY_LANE = 140;
+  localparam int LATENCY_LANE = 141;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
-  localparam int LATENCY_CORE = 141;  // the door
+  localparam int LATENCY_CORE = 142;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 86;  // span, ..., clamp, FIFO
 

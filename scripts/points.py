@@ -123,7 +123,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_lobe": [{"FOLD": 6}, {"POWER": 3}, {"POWER": 2}],
     "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],
     "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}],
-    "shade_core": [SMALL, FOLDED, {"COLOUR": 1}, {"LANES": 4, **SMALL}],
+    "shade_core": [SMALL, FOLDED],
     "yardstick_beckmann": [{"WARD": 1}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }

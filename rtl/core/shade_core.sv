@@ -102,6 +102,8 @@ module shade_core #(
                       draw.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V2));
   assign threshold = normals && good && (draw.threshold < 0 || draw.threshold > 18'sd65536);
 
+  // what a beat is told by is looked at a clock after it was taken
+  logic taken_q, begins_q, whole_q, good_q, few_q, many_q, metric_seen_q, threshold_seen_q;
   logic spans_q, errors_q, empty_q, long_q, packet_q, metric_q, threshold_q;
   always_ff @(posedge clk_i) begin
     if (!door_valid_q || leave) begin
@@ -110,18 +112,27 @@ module shade_core #(
     end
     if (door_valid_q && leave) turn_q <= turn_q == TURN_W'(LANES - 1) ? '0 : turn_q + TURN_W'(1);
     if (take) inside_packet_q <= !s_axis_span_tlast;
-    spans_q     <= take && good;
-    errors_q    <= take && !good && !inside_packet_q;
-    packet_q    <= take && !whole && !inside_packet_q;
-    empty_q     <= take && whole && empty;
-    long_q      <= take && whole && long_span;
-    metric_q    <= take && metric;
-    threshold_q <= take && threshold;
+    taken_q          <= take;
+    begins_q         <= !inside_packet_q;
+    whole_q          <= whole;
+    good_q           <= good;
+    few_q            <= empty;
+    many_q           <= long_span;
+    metric_seen_q    <= metric;
+    threshold_seen_q <= threshold;
+    spans_q          <= taken_q && good_q;
+    errors_q         <= taken_q && !good_q && begins_q;
+    packet_q         <= taken_q && !whole_q && begins_q;
+    empty_q          <= taken_q && whole_q && few_q;
+    long_q           <= taken_q && whole_q && many_q;
+    metric_q         <= taken_q && metric_seen_q;
+    threshold_q      <= taken_q && threshold_seen_q;
     if (clear) turn_q <= '0;
     if (rst_i) begin
       door_valid_q    <= 1'b0;
       turn_q          <= '0;
       inside_packet_q <= 1'b0;
+      taken_q         <= 1'b0;
       {spans_q, errors_q, packet_q, empty_q, long_q, metric_q, threshold_q} <= '0;
     end
   end

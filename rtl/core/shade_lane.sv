@@ -90,7 +90,7 @@ module shade_lane #(
     .valid_o(span_valid), .ready_i(pop), .data_o(span), .taken_o(span_taken)
   );
 
-  localparam int PLAN_W = COUNT_W + LOG2_W + DEGREE_W + COUNT_W + LOG2_W + DEGREE_W;
+  localparam int PLAN_W = 1 + COUNT_W + LOG2_W + DEGREE_W + COUNT_W + LOG2_W + DEGREE_W;
   logic planned;
   logic [COUNT_W-1:0] main, last_count;
   logic [LOG2_W-1:0] log2, last_log2;
@@ -105,7 +105,7 @@ module shade_lane #(
     .log2_o(log2), .degree_o(degree), .last_count_o(last_count), .last_log2_o(last_log2), .last_degree_o(last_degree)
   );
   shade_fifo #(.WIDTH(PLAN_W), .LOG2(SPAN_LOG2), .BLOCK(1)) u_plans (
-    .clk_i, .rst_i, .valid_i(planned), .data_i({main, log2, degree, last_count, last_log2, last_degree}),
+    .clk_i, .rst_i, .valid_i(planned), .data_i({main != '0, main, log2, degree, last_count, last_log2, last_degree}),
     .valid_o(plan_valid), .ready_i(pop), .data_o(plan), .taken_o()
   );
 
@@ -119,7 +119,7 @@ module shade_lane #(
   logic signed [W-1:0] vx, vy, vz;
   shade_node_walk #(.CREDIT_LOG2(RECORD_LOG2), .PACE(FOLD)) u_walk (
     .clk_i, .rst_i, .valid_i(span_valid && plan_valid), .ready_o(walk_ready), .g_i(span[TAG_W+1+STEPS_W+:STEPS_W]),
-    .n_i(span[TAG_W+1+:STEPS_W]), .main_i(plan[PLAN_W-1-:COUNT_W]),
+    .n_i(span[TAG_W+1+:STEPS_W]), .split_i(plan[PLAN_W-1]), .main_i(plan[PLAN_W-2-:COUNT_W]),
     .log2_i(plan[COUNT_W+LOG2_W+2*DEGREE_W+:LOG2_W]), .degree_i(plan[COUNT_W+LOG2_W+DEGREE_W+:DEGREE_W]),
     .last_count_i(plan[LOG2_W+DEGREE_W+:COUNT_W]), .last_log2_i(plan[DEGREE_W+:LOG2_W]),
     .last_degree_i(plan[DEGREE_W-1:0]), .flat_i(span[TAG_W]), .tag_i(span[TAG_W-1:0]),

@@ -7,7 +7,8 @@
 // where that ends: the node is shared (shared_o) and does not come again.
 //
 //   n_i, g_i           S2.29 each component (x in the low word): normal of the first pixel, increment per pixel
-//   main_i .. last_degree_i  as shade_planner gives them;  flat_i  the span's normals need no normalizing
+//   main_i .. last_degree_i  as shade_planner gives them; split_i  main_i is not 0: ready_o hangs on it, so it must come early
+//   flat_i             the span's normals need no normalizing
 //   valid_i, ready_o   a span is taken when both are 1; its two kinds of records follow each other without a bubble
 //   credit_i           gives one credit back; 2^CREDIT_LOG2 are there after reset, a record costs one
 //   x_o .. z_o         S2.15, the normal at a node, to nearest, ties up, saturated; not of unit length
@@ -28,6 +29,7 @@ module shade_node_walk #(
   output logic                               ready_o,
   input  logic [     3*shade_pkg::STEP_W-1:0] n_i,
   input  logic [     3*shade_pkg::STEP_W-1:0] g_i,
+  input  logic                               split_i,
   input  logic [      shade_pkg::COUNT_W-1:0] main_i,
   input  logic [                         3:0] log2_i,
   input  logic [     shade_pkg::DEGREE_W-1:0] degree_i,
@@ -67,7 +69,7 @@ module shade_node_walk #(
   logic main_done_q;
   logic [3:0] run_log2, step_log2, step_log2_q;
   logic [DEGREE_W-1:0] run_degree;
-  assign main       = main_i != '0 && !main_done_q;
+  assign main       = split_i && !main_done_q;
   assign run_degree = main ? degree_i : last_degree_i;
   assign run_log2   = main ? log2_i : last_log2_i;
   always_comb begin

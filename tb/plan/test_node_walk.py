@@ -18,7 +18,7 @@ def test_cocotb(point):
 
 
 PLAN = ("main_i", "log2_i", "degree_i", "last_count_i", "last_log2_i", "last_degree_i")
-PAYLOAD = ("n_i", "g_i", *PLAN, "flat_i", "tag_i")
+PAYLOAD = ("n_i", "g_i", *PLAN, "flat_i", "tag_i", "split_i")
 NODE = ("x_o", "y_o", "z_o", "slot_o", "first_o", "shared_o", "last_o", "flat_o", "tag_o")
 RECORD = ("count_o", "degree_o", "more_o")
 
@@ -86,7 +86,8 @@ def words(sent: dict[str, np.ndarray]) -> list[tuple[int, ...]]:
         [sum((component & mask) << k.STEP_W * c for c, component in enumerate(row)) for row in sent[name].tolist()]
         for name in "ng"
     ]
-    return list(zip(*vectors, *(sent[name].tolist() for name in list(sent)[2:]), strict=True))
+    split = (sent["main"] != 0).tolist()
+    return list(zip(*vectors, *(sent[name].tolist() for name in list(sent)[2:]), split, strict=True))
 
 
 async def compare(bench: Bench, sent: dict[str, np.ndarray], nodes: Nodes) -> None:
@@ -171,9 +172,9 @@ async def reset(bench: Bench) -> None:
 
 @checked()
 async def paths(bench: Bench) -> None:
-    """No node follows an input within a clock; ready_o may follow main_i, which stands behind a FIFO's register."""
+    """No node follows an input within a clock; ready_o may follow split_i, which stands behind a FIFO's register."""
     source, nodes = setup(bench, thrift=0.5)
-    inputs = ["n_i", "g_i", "tag_i", "flat_i", "last_count_i", "credit_i"]
+    inputs = ["n_i", "g_i", "tag_i", "flat_i", "main_i", "last_count_i", "credit_i"]
     cocotb.start_soon(no_path(bench, inputs, ["ready_o", "valid_o", *NODE, *RECORD]))
     sent = spans(bench, 40)
     await source.send(words(sent), 0.3)

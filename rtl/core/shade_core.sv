@@ -108,7 +108,7 @@ module shade_core #(
   always_ff @(posedge clk_i) begin
     if (!door_valid_q || leave) begin
       door_q       <= s_axis_span_tdata;
-      door_valid_q <= take && good;
+      door_valid_q <= s_axis_span_tvalid && !hold && good;
     end
     if (door_valid_q && leave) turn_q <= turn_q == TURN_W'(LANES - 1) ? '0 : turn_q + TURN_W'(1);
     if (take) inside_packet_q <= !s_axis_span_tlast;

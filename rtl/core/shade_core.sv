@@ -145,11 +145,13 @@ module shade_core #(
     logic [PIXEL_W-1:0] pixel;
     logic [TAG_W-1:0] tag;
     assign enter = door_valid_q && turn_q == TURN_W'(i);
+    shade_pkg::draw_t draw_q;  // a copy of the settings, near where they are needed; no span enters sooner
+    always_ff @(posedge clk_i) draw_q <= draw;
     shade_lane #(
       .EVALUATOR(EVALUATOR), .FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS),
       .FOLD(FOLD)
     ) u_lane (
-      .clk_i, .rst_i, .draw_i(draw), .s_axis_span_tvalid(enter), .s_axis_span_tready(ready[i]),
+      .clk_i, .rst_i, .draw_i(draw_q), .s_axis_span_tvalid(enter), .s_axis_span_tready(ready[i]),
       .s_axis_span_tdata(door_q),
       .m_axis_pixel_tvalid(valid), .m_axis_pixel_tready(taken), .m_axis_pixel_tdata(pixel),
       .m_axis_pixel_tuser(tag), .m_axis_pixel_tlast(last), .lit_o(lit[i]),
@@ -157,7 +159,7 @@ module shade_core #(
     );
     if (COLOUR == 1) begin : g_paint
       shade_paint u_paint (
-        .clk_i, .rst_i, .draw_i(draw), .s_axis_pixel_tvalid(valid), .s_axis_pixel_tready(taken),
+        .clk_i, .rst_i, .draw_i(draw_q), .s_axis_pixel_tvalid(valid), .s_axis_pixel_tready(taken),
         .s_axis_pixel_tdata(pixel), .s_axis_pixel_tuser(tag), .s_axis_pixel_tlast(last),
         .m_axis_pixel_tvalid(m_axis_pixel_tvalid[i]), .m_axis_pixel_tready(m_axis_pixel_tready[i]),
         .m_axis_pixel_tdata(m_axis_pixel_tdata[i*DATA_W+:DATA_W]),

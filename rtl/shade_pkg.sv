@@ -220,14 +220,14 @@ package shade_pkg;
   localparam int LATENCY_PLANNER = 28;  // see shade_planner
   localparam int LATENCY_PLANNER_FOLDED = 34;
   localparam int LATENCY_COLLECT = 1;  // the record
-  localparam int LATENCY_NODE_WALK = 4;  // the choice of a run, its step, the run, the rounding
+  localparam int LATENCY_NODE_WALK = 5;  // the choice of a run, its step, the run, its node, the rounding
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
-  localparam int LATENCY_LANE = 141;
+  localparam int LATENCY_LANE = 142;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
-  localparam int LATENCY_CORE = 142;  // the door
+  localparam int LATENCY_CORE = 143;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 86;  // span, ..., clamp, FIFO
 

@@ -15,7 +15,7 @@
 //   slot_o             number of the node in its record; first_o, last_o frame the nodes of a record that come
 //   count_o, degree_o  of the record; more_o: the span goes on behind it; flat_o, tag_o: the span's
 //
-// Latency from a span taken to its first node LATENCY_NODE_WALK = 4 clocks, one node a clock. PACE > 1: a node in PACE clocks,
+// Latency from a span taken to its first node LATENCY_NODE_WALK = 5 clocks, one node a clock. PACE > 1: a node in PACE clocks,
 // whenever their number since reset is a multiple of it: for folded units.
 // Example: 5 pixels, one record of degree 3: nodes at pixels 0, 1, 2, 4 in slots 0, 1, 2, 3.
 // Source: P4 (one increment for all lines of a triangle), P1, section IV (nodes).
@@ -134,16 +134,14 @@ module shade_node_walk #(
   logic busy_d, first_d, shared_d, last_record_d;
   logic end_run;
   logic [1:0] slot_q, slot_d, last_slot_q, last_slot_d;
-  logic [3*STEP_W-1:0] node_q, step_q;
+  logic [3*STEP_W-1:0] start_q, step_q;
   logic [COUNT_W-1:0] records_q, count_q;
   logic [DEGREE_W-1:0] degree_q;
   logic [TAG_W-1:0] tag_q;
   logic [CREDIT_LOG2:0] credit_q, credit_d;
   logic pace_d;
-  logic far;  // the next node of a cubic lies half a record away
   assign end_run  = go_q && end_record_q && last_record_q;
   assign load     = next_valid_q && (!busy_q || end_run);
-  assign far      = degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;
   assign credit_d = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(go_q && first_q);
   always_comb begin
     busy_d        = load || (busy_q && !end_run);
@@ -175,18 +173,8 @@ module shade_node_walk #(
   end else begin : g_pace
     logic [2:0] phase_q, phase_d;  // counts as in the folded units behind, which take a node in phase 0
     assign phase_d = phase_q == 3'(PACE - 1) ? '0 : phase_q + 3'd1;
-    assign pace_d  = phase_d == 3'(PACE - 1);
+    assign pace_d  = phase_d == 3'(PACE - 2);
     always_ff @(posedge clk_i) phase_q <= rst_i ? '0 : phase_d;
-  end
-
-  for (genvar c = 0; c < 3; c++) begin : g_component
-    logic [STEP_W-1:0] node, step;
-    assign node = node_q[c*STEP_W+:STEP_W];
-    assign step = load ? next_step_q[c*STEP_W+:STEP_W] : step_q[c*STEP_W+:STEP_W] << far;
-    always_ff @(posedge clk_i) begin
-      if (load) node_q[c*STEP_W+:STEP_W] <= next_fresh ? next_n_q[c*STEP_W+:STEP_W] : node + step;
-      else if (go_q && !end_run) node_q[c*STEP_W+:STEP_W] <= node + step;
-    end
   end
 
   always_ff @(posedge clk_i) begin
@@ -203,6 +191,7 @@ module shade_node_walk #(
       records_q <= next_records;
       count_q   <= next_count;
       degree_q  <= next_degree;
+      start_q   <= next_n_q;
       step_q    <= next_step_q;
       more_q    <= next_more;
       flat_q    <= next_flat;
@@ -217,6 +206,31 @@ module shade_node_walk #(
     end
   end
 
+  // ---- its node, a clock later -----------------------------------------------------------------------------------
+  localparam int PLACE_W = 2 + 3;  // where a node is: slot, first, shared, last
+  localparam int KIND_W = COUNT_W + DEGREE_W + 2 + TAG_W;
+  logic begin_q, step_on_q, far_q, valid_q;
+  logic [PLACE_W+KIND_W-1:0] about_q;
+  always_ff @(posedge clk_i) begin
+    begin_q   <= load && next_fresh;
+    step_on_q <= load || (go_q && !end_run);
+    far_q     <= !load && degree_q == DEGREE_W'(shade_pkg::DEGREE_CUBIC) && slot_q == 2'd2;  // of a cubic: half a record
+    valid_q   <= go_q;
+    about_q   <= {
+      slot_q, first_q, shared_q && first_q, end_record_q, count_q, degree_q, more_q, flat_q, tag_q
+    };
+    if (rst_i) valid_q <= 1'b0;
+  end
+  logic [3*STEP_W-1:0] node_q;
+  for (genvar c = 0; c < 3; c++) begin : g_component
+    logic [STEP_W-1:0] sum;
+    assign sum = node_q[c*STEP_W+:STEP_W] + (step_q[c*STEP_W+:STEP_W] << far_q);
+    always_ff @(posedge clk_i) begin
+      if (begin_q) node_q[c*STEP_W+:STEP_W] <= start_q[c*STEP_W+:STEP_W];
+      else if (step_on_q) node_q[c*STEP_W+:STEP_W] <= sum;
+    end
+  end
+
   // ---- a node goes out ---------------------------------------------------------------------------------------
   localparam int DROP = shade_pkg::STEP_F - shade_pkg::NODE_F;
   logic [3*W-1:0] rounded;
@@ -227,16 +241,8 @@ module shade_node_walk #(
   end
   always_ff @(posedge clk_i) begin
     {z_o, y_o, x_o} <= rounded;
-    slot_o          <= slot_q;
-    first_o         <= first_q;
-    shared_o        <= shared_q && first_q;
-    last_o          <= end_record_q;
-    count_o         <= count_q;
-    degree_o        <= degree_q;
-    more_o          <= more_q;
-    flat_o          <= flat_q;
-    tag_o           <= tag_q;
-    valid_o         <= go_q;
+    {slot_o, first_o, shared_o, last_o, count_o, degree_o, more_o, flat_o, tag_o} <= about_q;
+    valid_o <= valid_q;
     if (rst_i) valid_o <= 1'b0;
   end
 endmodule

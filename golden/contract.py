@@ -153,7 +153,7 @@ PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the hi
 COLOUR_DATA_W = 3 * PIXEL_W  # red in the low third, then green, blue
 
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
-LATENCY_MUL = 2  # partial products, their sum
+LATENCY_MUL = 2  # operands, product; of wide operands partial products, their sum
 LATENCY_MUL_IN = LATENCY_MUL + 1  # STAGES = 3: the operands in front of them
 LATENCY_SQUARE_FABRIC = 4  # a tree of adders
 LATENCY_THIRD = 5  # four adders, one rounding
@@ -166,7 +166,7 @@ LATENCY_FIFO = 2  # memory, output register
 LATENCY_FIFO_BLOCK = 3  # one more
 LATENCY_RSQRT = 2 + 2 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
 LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
-LATENCY_UNIT = LATENCY_MUL_IN + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
+LATENCY_UNIT = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
 LATENCY_UNIT_FOLDED = 30  # five turns of the multiplier
 LATENCY_WEIGH = 4  # a tree of adders
 LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders

@@ -171,7 +171,7 @@ package shade_pkg;
   localparam int COLOUR_DATA_W = 48;  // red in the low third, then green, blue
 
   // latencies, in clocks from an input taken to the output it causes
-  localparam int LATENCY_MUL = 2;  // partial products, their sum
+  localparam int LATENCY_MUL = 2;  // operands, product; of wide operands partial products, their sum
   localparam int LATENCY_MUL_IN = 3;  // STAGES = 3: the operands in front of them
   localparam int LATENCY_SQUARE_FABRIC = 4;  // a tree of adders
   localparam int LATENCY_THIRD = 5;  // four adders, one rounding
@@ -184,7 +184,7 @@ package shade_pkg;
   localparam int LATENCY_FIFO_BLOCK = 3;  // one more
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
-  localparam int LATENCY_UNIT = 20;  // squares, sums, 1/root, shift, products
+  localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT_FOLDED = 30;  // five turns of the multiplier
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
@@ -224,10 +224,10 @@ package shade_pkg;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
-  localparam int LATENCY_LANE = 142;
+  localparam int LATENCY_LANE = 141;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
-  localparam int LATENCY_CORE = 143;  // the door
+  localparam int LATENCY_CORE = 142;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PHONG = 86;  // span, ..., clamp, FIFO
 

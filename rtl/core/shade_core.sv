@@ -79,8 +79,8 @@ module shade_core #(
   // ---- the door: what is faulty stays outside ---------------------------------------------------------------------
   logic [COUNT_W-1:0] count;
   logic inside_packet_q, change, clear, hold, take, whole, empty, long_span, good;
-  logic door_valid_q, leave;
-  logic [shade_pkg::LINE_DATA_W-1:0] door_q;  // a good span on its way to its lane
+  logic door_valid_q, spare_valid_q, leave;
+  logic [shade_pkg::LINE_DATA_W-1:0] door_q, spare_q;  // a good span on its way to its lane, and one behind it
   logic [LANES-1:0] ready;
   logic [TURN_W-1:0] turn_q;
   assign count              = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
@@ -89,7 +89,7 @@ module shade_core #(
   assign long_span          = count > COUNT_W'(shade_pkg::PIXELS_MAX);
   assign good               = whole && !empty && !long_span;
   assign hold               = change || clear;
-  assign s_axis_span_tready = (!door_valid_q || leave) && !hold;  // a span sees one set of settings all its way
+  assign s_axis_span_tready = !spare_valid_q && !hold;  // a span sees one set of settings all its way
   assign leave              = ready[turn_q];
   assign take               = s_axis_span_tvalid && s_axis_span_tready;
 
@@ -107,8 +107,12 @@ module shade_core #(
   logic spans_q, errors_q, empty_q, long_q, packet_q, metric_q, threshold_q;
   always_ff @(posedge clk_i) begin
     if (!door_valid_q || leave) begin
-      door_q       <= s_axis_span_tdata;
-      door_valid_q <= s_axis_span_tvalid && !hold && good;
+      door_q        <= spare_valid_q ? spare_q : s_axis_span_tdata;
+      door_valid_q  <= spare_valid_q || (take && good);
+      spare_valid_q <= 1'b0;
+    end else if (!spare_valid_q) begin
+      spare_q       <= s_axis_span_tdata;
+      spare_valid_q <= take && good;
     end
     if (door_valid_q && leave) turn_q <= turn_q == TURN_W'(LANES - 1) ? '0 : turn_q + TURN_W'(1);
     if (take) inside_packet_q <= !s_axis_span_tlast;
@@ -130,6 +134,7 @@ module shade_core #(
     if (clear) turn_q <= '0;
     if (rst_i) begin
       door_valid_q    <= 1'b0;
+      spare_valid_q   <= 1'b0;
       turn_q          <= '0;
       inside_packet_q <= 1'b0;
       taken_q         <= 1'b0;
@@ -234,7 +239,7 @@ module shade_core #(
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(|busy || door_valid_q),
+    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(|busy || door_valid_q || spare_valid_q),
     .events_i(events),
     .pixels_i(pixels_q), .spans_i({2'b00, spans_q}), .stalls_i(stalls_q), .evaluations_i(evaluations_q),
     .errors_i({2'b00, errors_q})

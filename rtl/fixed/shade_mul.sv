@@ -5,9 +5,10 @@
 //   a = ah 2^17 + al      ah signed, A_W - 17 bits; al unsigned, 17 bits
 //   p = (ah b) 2^17 + al b
 //
-// STAGES = 2: a register behind every product, then one behind their sum; latency LATENCY_MUL = 2 clocks, one
-// product a clock. STAGES = 3: registers in front as well, LATENCY_MUL_IN = 3, for operands that come from afar.
-// STAGES = 0: combinational, for an evaluator whose own register stands behind it.
+// STAGES = 2: latency LATENCY_MUL = 2 clocks, one product a clock. Registers stand in front of the product and behind it,
+// where those of a DSP block are; with a wide a behind the two products and behind their sum.
+// STAGES = 3: LATENCY_MUL_IN = 3 clocks, with a wide a registers in front as well. STAGES = 0: combinational, for an
+// evaluator whose own register stands behind it.
 // Exact, no rounding. Example: a = -3, b = 5 -> p = -15.
 module shade_mul #(
   parameter int A_W    = 30,
@@ -28,49 +29,32 @@ module shade_mul #(
   localparam bit CUT = A_W > 18;
   localparam int HIGH_W = CUT ? A_W - LOW : A_W;
 
+  // registers in front, behind the products and behind their sum
+  localparam int IN = STAGES == 0 || (CUT && STAGES == shade_pkg::LATENCY_MUL) ? 0 : 1;
+  localparam int PRODUCT = STAGES == 0 ? 0 : 1;
+  localparam int SUM = STAGES - IN - PRODUCT;
+
   logic signed [A_W-1:0] a;
   logic signed [B_W-1:0] b;
-  if (STAGES == shade_pkg::LATENCY_MUL_IN) begin : g_in
-    always_ff @(posedge clk_i) begin
-      a <= a_i;
-      b <= b_i;
-    end
-  end else begin : g_direct
-    assign a = a_i;
-    assign b = b_i;
-  end
+  shade_delay #(.WIDTH(P_W), .DEPTH(IN)) u_in (.clk_i, .d_i({a_i, b_i}), .q_o({a, b}));
 
   logic signed [HIGH_W-1:0] ah;
   logic signed [HIGH_W+B_W-1:0] high, high_p;  // ah b, and behind its register
   logic signed [P_W-1:0] sum;
   assign ah   = a[A_W-1-:HIGH_W];
   assign high = ah * b;
+  shade_delay #(.WIDTH(HIGH_W + B_W), .DEPTH(PRODUCT)) u_high (.clk_i, .d_i(high), .q_o(high_p));
 
   if (CUT) begin : g_cut
     logic signed [LOW:0] al;
     logic signed [LOW+B_W:0] low, low_p;
     assign al  = {1'b0, a[LOW-1:0]};
     assign low = al * b;
-    if (STAGES == 0) begin : g_wire
-      assign low_p = low;
-    end else begin : g_register
-      always_ff @(posedge clk_i) low_p <= low;
-    end
+    shade_delay #(.WIDTH(LOW + B_W + 1), .DEPTH(PRODUCT)) u_low (.clk_i, .d_i(low), .q_o(low_p));
     // the lower 17 bits of al b are those of p: the adder is that much shorter
     assign sum = {high_p + (HIGH_W + B_W)'(low_p >>> LOW), low_p[LOW-1:0]};
   end else begin : g_whole
     assign sum = high_p;
   end
-
-  if (STAGES == 0) begin : g_wire
-    assign high_p = high;
-    assign p_o    = sum;
-    logic unused_clk;
-    assign unused_clk = clk_i;
-  end else begin : g_register
-    always_ff @(posedge clk_i) begin
-      high_p <= high;
-      p_o    <= sum;
-    end
-  end
+  shade_delay #(.WIDTH(P_W), .DEPTH(SUM)) u_sum (.clk_i, .d_i(sum), .q_o(p_o));
 endmodule

@@ -10,7 +10,7 @@
 //   v' = v 2^(15-e)                17 bits, rounded where e > 15: 2^15 <= |v'| < 2^16, but for |v| < 1/8, shifted by 3 only
 //   n = v' s / 2^17                s = r to 18 fraction bits, below 1
 //
-// FOLD = 1: eight 18 x 18 multipliers, a vector a clock, latency LATENCY_UNIT = 20 clocks, ready_o is 1.
+// FOLD = 1: eight 18 x 18 multipliers, a vector a clock, latency LATENCY_UNIT = 19 clocks, ready_o is 1.
 // FOLD = 6: three, of which one makes the six products of v: a vector in 6 clocks, latency LATENCY_UNIT_FOLDED = 30 clocks;
 //           ready_o is 1 in every sixth clock.
 // shade_normalize, for vectors of every length, takes eleven. Example: v = (0.3, 0, 0.4) -> n = (0.6, 0, 0.8).
@@ -42,7 +42,7 @@ module shade_unit #(
   localparam int U_W = W + 3;  // v shifted left by 0 .. 5: v' with two fraction bits; twice v, which is to be saturated
   localparam int F = shade_pkg::INVC_F;
   localparam int R_F = shade_pkg::RSQRT_F;
-  localparam int MUL_IN = shade_pkg::LATENCY_MUL_IN;
+  localparam int MUL = shade_pkg::LATENCY_MUL;
 
   logic [shade_pkg::RSQRT_W-1:0] square;
   logic [R_F:0] r;
@@ -70,40 +70,40 @@ module shade_unit #(
   endfunction
 
   if (FOLD == 1) begin : g_parallel
-    logic [shade_pkg::RSQRT_W-1:0] xx_q3, yy_q3, zz_q3, zz_q4, xy_q4, square_q5;
-    shade_mul #(.A_W(W), .B_W(W), .STAGES(MUL_IN)) u_xx (.clk_i, .a_i(x_i), .b_i(x_i), .p_o(xx_q3));
-    shade_mul #(.A_W(W), .B_W(W), .STAGES(MUL_IN)) u_yy (.clk_i, .a_i(y_i), .b_i(y_i), .p_o(yy_q3));
-    shade_mul #(.A_W(W), .B_W(W), .STAGES(MUL_IN)) u_zz (.clk_i, .a_i(z_i), .b_i(z_i), .p_o(zz_q3));
+    logic [shade_pkg::RSQRT_W-1:0] xx_q2, yy_q2, zz_q2, zz_q3, xy_q3, square_q4;
+    shade_mul #(.A_W(W), .B_W(W)) u_xx (.clk_i, .a_i(x_i), .b_i(x_i), .p_o(xx_q2));
+    shade_mul #(.A_W(W), .B_W(W)) u_yy (.clk_i, .a_i(y_i), .b_i(y_i), .p_o(yy_q2));
+    shade_mul #(.A_W(W), .B_W(W)) u_zz (.clk_i, .a_i(z_i), .b_i(z_i), .p_o(zz_q2));
     always_ff @(posedge clk_i) begin
-      xy_q4     <= xx_q3 + yy_q3;
-      zz_q4     <= zz_q3;
-      square_q5 <= xy_q4 + zz_q4;
+      xy_q3     <= xx_q2 + yy_q2;
+      zz_q3     <= zz_q2;
+      square_q4 <= xy_q3 + zz_q3;
     end
-    assign square = square_q5;
+    assign square = square_q4;
 
-    logic [V_W-1:0] v_q15, v_q17;
-    logic bypass_q15, bypass_q16;
-    logic [2:0] shift_q15;
-    logic [F-1:0] offset_q17;  // s - 1/2: its sign is turned in front of the register, not before the multiplier
-    shade_delay #(.WIDTH(V_W + 1), .DEPTH(MUL_IN + 2 + shade_pkg::LATENCY_RSQRT)) u_v (
-      .clk_i, .d_i({bypass_i, z_i, y_i, x_i}), .q_o({bypass_q15, v_q15})
+    logic [V_W-1:0] v_q14, v_q16;
+    logic bypass_q14, bypass_q15;
+    logic [2:0] shift_q14;
+    logic [F-1:0] s_q16;
+    shade_delay #(.WIDTH(V_W + 1), .DEPTH(MUL + 2 + shade_pkg::LATENCY_RSQRT)) u_v (
+      .clk_i, .d_i({bypass_i, z_i, y_i, x_i}), .q_o({bypass_q14, v_q14})
     );
-    assign shift_q15 = shift(bypass_q15, short_v, e);
-    assign bypass_s  = bypass_q16;
+    assign shift_q14 = shift(bypass_q14, short_v, e);
+    assign bypass_s  = bypass_q15;
     always_ff @(posedge clk_i) begin
-      bypass_q16 <= bypass_q15;
-      offset_q17 <= {~s[F-1], s[F-2:0]};
+      bypass_q15 <= bypass_q14;
+      s_q16      <= s;
     end
     for (genvar c = 0; c < 3; c++) begin : g_component
-      logic [U_W-1:0] u_q16;
+      logic [U_W-1:0] u_q15;
       always_ff @(posedge clk_i) begin
-        u_q16         <= U_W'($signed(v_q15[c*W+:W])) << shift_q15;
-        v_q17[c*W+:W] <= nearest(u_q16);
+        u_q15         <= U_W'($signed(v_q14[c*W+:W])) << shift_q14;
+        v_q16[c*W+:W] <= nearest(u_q15);
       end
     end
     shade_scale3 #(.GAIN(1)) u_scale (
-      .clk_i, .rst_i, .valid_i(1'b0), .ready_o(), .x_i(v_q17[0+:W]), .y_i(v_q17[W+:W]), .z_i(v_q17[2*W+:W]),
-      .s_i({~offset_q17[F-1], offset_q17[F-2:0]}), .valid_o(), .x_o, .y_o, .z_o
+      .clk_i, .rst_i, .valid_i(1'b0), .ready_o(), .x_i(v_q16[0+:W]), .y_i(v_q16[W+:W]), .z_i(v_q16[2*W+:W]),
+      .s_i(s_q16), .valid_o(), .x_o, .y_o, .z_o
     );
     shade_delay #(.WIDTH(2), .DEPTH(2 + shade_pkg::LATENCY_SCALE3)) u_flags (
       .clk_i, .d_i({zero, short_v}), .q_o({zero_o, short_o})

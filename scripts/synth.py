@@ -44,7 +44,15 @@ from sim.verilate import reached
 OUT = BUILD / "synth.json"
 WORK = BUILD / "synth"
 SEEDS = (1, 2, 3)
-NEXTPNR = ["--85k", "--package=CABGA381", "--speed=8", "--freq=200", "--timing-allow-fail", "--out-of-context"]
+NEXTPNR = [
+    "--85k",
+    "--package=CABGA381",
+    "--speed=8",
+    "--freq=200",
+    "--timing-allow-fail",
+    "--out-of-context",
+    "--placer=static",
+]
 
 # What one cell counts for, by the pattern of its name. Cells that match nothing (wide multiplexers, carry
 # chains whose LUTs are cells of their own, buffers, constants) count for nothing.

@@ -143,7 +143,7 @@ module shade_core #(
   end
 
   // ---- lanes -------------------------------------------------------------------------------------------------
-  logic [LANES-1:0] lit, out_q, stall_q, busy;
+  logic [LANES-1:0] lit, out_q, stall_q, occupied;
   logic [LANES*shade_pkg::LANE_FLAGS_W-1:0] flags;
   for (genvar i = 0; i < LANES; i++) begin : g_lane
     logic enter, valid, last, taken;
@@ -181,16 +181,15 @@ module shade_core #(
     // spans inside, counted at the core's own ports
     logic [15:0] inside_q;
     logic in, out;
+    assign occupied[i] = inside_q != '0;
     assign in  = enter && ready[i];
     assign out = m_axis_pixel_tvalid[i] && m_axis_pixel_tready[i];
     always_ff @(posedge clk_i) begin
       inside_q   <= inside_q + 16'(in) - 16'(out && m_axis_pixel_tlast[i]);
-      busy[i]    <= inside_q != '0 || in;
       out_q[i]   <= out;
       stall_q[i] <= m_axis_pixel_tvalid[i] && !m_axis_pixel_tready[i];
       if (rst_i) begin
         inside_q   <= '0;
-        busy[i]    <= 1'b0;
         out_q[i]   <= 1'b0;
         stall_q[i] <= 1'b0;
       end
@@ -222,6 +221,9 @@ module shade_core #(
     if (rst_i) {told_q, pixels_q, stalls_q, evaluations_q} <= '0;
   end
 
+  logic busy_q;  // a span is at the door or inside
+  always_ff @(posedge clk_i) busy_q <= !rst_i && (|occupied || door_valid_q || spare_valid_q || (take && good));
+
   shade_pkg::status_t events;
   assign events.error_empty     = empty_q;
   assign events.error_long      = long_q;
@@ -239,7 +241,7 @@ module shade_core #(
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(|busy || door_valid_q || spare_valid_q),
+    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(busy_q),
     .events_i(events),
     .pixels_i(pixels_q), .spans_i({2'b00, spans_q}), .stalls_i(stalls_q), .evaluations_i(evaluations_q),
     .errors_i({2'b00, errors_q})

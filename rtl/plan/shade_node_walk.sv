@@ -130,7 +130,7 @@ module shade_node_walk #(
   end
 
   // ---- the run in work: whether a node goes and whether it is the last one is known a clock before ---------------------
-  logic busy_q, first_q, shared_q, more_q, flat_q, last_record_q, go_q, end_record_q;
+  logic busy_q, first_q, shared_q, more_q, flat_q, last_record_q, go_q, end_record_q, end_run_q;
   logic busy_d, first_d, shared_d, last_record_d;
   logic end_run;
   logic [1:0] slot_q, slot_d, last_slot_q, last_slot_d;
@@ -140,7 +140,7 @@ module shade_node_walk #(
   logic [TAG_W-1:0] tag_q;
   logic [CREDIT_LOG2:0] credit_q, credit_d;
   logic pace_d;
-  assign end_run  = go_q && end_record_q && last_record_q;
+  assign end_run  = go_q && end_run_q;
   assign load     = next_valid_q && (!busy_q || end_run);
   assign credit_d = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(go_q && first_q);
   always_comb begin
@@ -184,6 +184,7 @@ module shade_node_walk #(
     last_slot_q   <= last_slot_d;
     end_record_q  <= slot_d == last_slot_d;
     last_record_q <= last_record_d;
+    end_run_q     <= slot_d == last_slot_d && last_record_d;
     busy_q        <= busy_d;
     credit_q      <= credit_d;
     go_q          <= busy_d && (!first_d || credit_d != '0) && pace_d;

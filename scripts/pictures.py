@@ -133,7 +133,8 @@ def timing_core(path: Path) -> None:
     run, wave = waves.record("shade_core", names, s_axis_span_tdata=beats, **WHOLE, writes=pack(words))
     first, given, end = run.taken[0], run.given[0], run.given[-1]
     clocks = np.r_[first - 1 : run.taken[-1] + 3, given - 2 : end + 2]
-    wave = {name: values[clocks].tolist() for name, values in wave.items()}
+    before = np.argmax(wave[span + "valid"] & wave[span + "ready"]) - first  # clocks of the writes
+    wave = {name: values[clocks + before].tolist() for name, values in wave.items()}
 
     bus = partial(on_bus, wave)
     sent, came = span + "valid", pixel + "valid"

@@ -91,7 +91,7 @@ module shade_lane #(
   );
 
   localparam int PLAN_W = 1 + COUNT_W + LOG2_W + DEGREE_W + COUNT_W + LOG2_W + DEGREE_W;
-  logic planned;
+  logic planned, split;
   logic [COUNT_W-1:0] main, last_count;
   logic [LOG2_W-1:0] log2, last_log2;
   logic [DEGREE_W-1:0] degree, last_degree;
@@ -104,8 +104,9 @@ module shade_lane #(
     .exponent_i(draw_i.sharpness_exp), .fixed_degree_i(draw_i.fixed_degree), .valid_o(planned), .main_o(main),
     .log2_o(log2), .degree_o(degree), .last_count_o(last_count), .last_log2_o(last_log2), .last_degree_o(last_degree)
   );
+  assign split = main != '0;
   shade_fifo #(.WIDTH(PLAN_W), .LOG2(SPAN_LOG2), .BLOCK(1)) u_plans (
-    .clk_i, .rst_i, .valid_i(planned), .data_i({main != '0, main, log2, degree, last_count, last_log2, last_degree}),
+    .clk_i, .rst_i, .valid_i(planned), .data_i({split, main, log2, degree, last_count, last_log2, last_degree}),
     .valid_o(plan_valid), .ready_i(pop), .data_o(plan), .taken_o()
   );
 

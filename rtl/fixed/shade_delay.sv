@@ -1,7 +1,7 @@
 // shade_delay: q_o = d_i of DEPTH clocks ago.
 //
 // Aligns data that need no arithmetic with the results of a pipeline beside them. Not reset. DEPTH = 0 is a wire.
-// What is short or narrow is a shift register. Eight bits and eight clocks or more go round in distributed memories of 16
+// What is short or narrow is a shift register. Eight bits and eight clocks or more go round in small memories of 16
 // words, one behind the other, each with a register behind it: a quarter of the area. The words written meanwhile need
 // no reset either: the addresses' distance counts, not where they begin.
 // Latency DEPTH clocks, one value a clock. Example: DEPTH = 2, d_i = 5, 6, 7, 8 -> q_o = x, x, 5, 6.
@@ -44,7 +44,7 @@ module shade_delay #(
       if (CLOCKS == 1) begin : g_register
         always_ff @(posedge clk_i) last_q <= data[i*WIDTH+:WIDTH];
       end else begin : g_memory
-        (* ram_style = "distributed" *) logic [WIDTH-1:0] memory[0:WORDS-1];
+        logic [WIDTH-1:0] memory[0:WORDS-1];
         logic [ADDRESS_W-1:0] read_q;  // CLOCKS - 1 words behind write_q
         initial read_q = '0;
         always_ff @(posedge clk_i) begin

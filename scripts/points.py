@@ -67,7 +67,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_node_walk": [{"CREDIT_LOG2": 1}, {"PACE": 6}],
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
     "shade_lane": [{"EVALUATOR": 0, "FORM": 0, **SMALL}, FOLDED],
-    "shade_core": [{"LANES": 2, "COLOUR": 1, **FOLDED}],
+    "shade_core": [{"LANES": 4, "COLOUR": 1, **FOLDED}],
 }
 
 REFUSED: dict[str, list[Point]] = {
@@ -123,7 +123,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_lobe": [{"FOLD": 6}, {"POWER": 3}, {"POWER": 2}],
     "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],
     "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}],
-    "shade_core": [SMALL, FOLDED],
+    "shade_core": [SMALL, FOLDED, {"COLOUR": 1}, {"LANES": 4, **SMALL}],
     "yardstick_beckmann": [{"WARD": 1}],
     **{f"shade_{unit}": grid(FORM=[0], DEGREE=[1, 2]) for unit in ("invc", "midpoint", "node_chain", "criterion")},
 }

@@ -8,7 +8,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-one lint format bench units papers synth pictures lock clean distclean
+.PHONY: all help setup test test-one lint format generate bench units papers synth pictures lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -18,8 +18,8 @@ help: ## Print this list
 
 setup: $(READY) ## Make .venv with the pinned tools
 
-$(READY): requirements.txt pyproject.toml scripts/setup.sh
-	@scripts/setup.sh .venv
+$(READY): requirements.txt pyproject.toml scripts/flow/setup.sh
+	@scripts/flow/setup.sh .venv
 
 # A mark of its own: were the report the target, make would delete it when it tells of a mismatch.
 $(EQUAL): $(READY) $(shell find rtl golden sim scripts -name '*.sv' -o -name '*.f' -o -name '*.py' -o -name '*.cpp')
@@ -28,15 +28,18 @@ $(EQUAL): $(READY) $(shell find rtl golden sim scripts -name '*.sv' -o -name '*.
 	@touch $@
 
 test: $(READY) ## Run lint, golden, cocotb, NumPy-driven and command-line tests
-	@$(BIN)/python -m scripts.tools cocotb
+	@$(BIN)/python -m polyshade.scripts.flow.tools cocotb
 	$(PYTEST) -n auto --dist worksteal --junitxml build/test/report.xml
 
 test-one: $(READY) ## Run one test again: T='tb/...::test_x[...]' SEED=1 WAVES=1
-	@$(BIN)/python -m scripts.tools cocotb
+	@$(BIN)/python -m polyshade.scripts.flow.tools cocotb
 	$(PYTEST) -n 0 -v $(if $(findstring /,$(T)),,-k) '$(or $(T),$(error T is empty: give a test, such as T=tb/fixed/test_third.py))'
 
 lint: $(READY) ## Check RTL and Python: Verilator, Yosys, rules of the house, ruff
-	$(BIN)/python -m scripts.lint
+	$(BIN)/python -m polyshade.scripts.flow.lint
+
+generate: $(READY) ## Write what is generated: rtl/shade_pkg.sv, the table of 1/sqrt, docs/registers.md, docs/interface.md
+	$(BIN)/python -m polyshade.scripts.flow.generate
 
 format: $(READY) ## Format the Python code
 	$(BIN)/ruff format
@@ -51,10 +54,10 @@ papers: ## Check every claim of the papers; leaves build/papers.json
 synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.json
 
 pictures: $(READY) ## Make the pictures of the READMEs again, in docs
-	$(BIN)/python -m scripts.pictures
+	$(BIN)/python -m polyshade.scripts.drawings.pictures
 
 lock: ## Write requirements.txt from requirements.in
-	scripts/lock.sh
+	scripts/flow/lock.sh
 
 clean: ## Remove what was built
 	rm -rf build

@@ -1,6 +1,6 @@
 """The contract between the RTL, the golden model and every user: formats, latencies, limits, codes.
 
-This is the one place where they are written down.  ``python -m scripts.generate`` turns it into
+This is the one place where they are written down.  ``make generate`` turns it into
 ``rtl/shade_pkg.sv``; a test fails when the two differ.  ``W`` is a width in bits, ``F`` the number of fraction
 bits among them; ``S1.16`` is a signed number with a sign, one integer bit and 16 fraction bits (18 bits).
 

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden import contract as k
-from golden import registers
-from golden.fixed import Int, integers, saturate
-from golden.light import colour, light
-from golden.normal import line_errors, pixel_normals, unit
-from golden.plan import Nodes, node_walk, planner
-from golden.poly import poly_span
+from . import contract as k
+from . import registers
+from .fixed import Int, integers, saturate
+from .light import colour, light
+from .normal import line_errors, pixel_normals, unit
+from .plan import Nodes, node_walk, planner
+from .poly import poly_span
 
 
 class Drawn(NamedTuple):
@@ -70,7 +70,7 @@ def lane(
     P2's criterion: with Lambert's light alone a line without normalizing. ``cosine``: of the span's ends, S1.16, for V1
     and V2 of path normals, which ``path_normals`` = 0 leaves out.
 
-    >>> from golden.material import Material, planner_registers, registers
+    >>> from polyshade.golden.material import Material, planner_registers, registers
     >>> surface = Material("lambert")
     >>> draw = registers(surface, (0, 0, 1)) | planner_registers(surface)
     >>> lane([[0, 0, 1 << 29]], [[0, 0, 0]], [2], draw).pixels.tolist()

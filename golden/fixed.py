@@ -13,8 +13,8 @@ from math import isqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from golden import contract as k
-from golden.contract import FORM_PAPER, FORM_REFINED
+from . import contract as k
+from .contract import FORM_PAPER, FORM_REFINED
 
 Int = NDArray[np.int64]
 ONE = 1 << k.INTENSITY_F  # 1.0 in S1.16

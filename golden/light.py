@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden import contract as k
-from golden.fixed import ONE, Int, clamp, integers, limit, round, rsqrt, saturate
-from golden.normal import dot3, normalize
+from . import contract as k
+from .fixed import ONE, Int, clamp, integers, limit, round, rsqrt, saturate
+from .normal import dot3, normalize
 
 
 def versine(ax: ArrayLike, ay, az, bx, by, bz, form: int = k.FORM_REFINED) -> tuple[Int, Int]:

@@ -12,10 +12,10 @@ from math import floor, log2, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden import contract as k
-from golden.fixed import ONE
-from golden.plan import quantize_sharpness
-from golden.reference import light as reference
+from . import contract as k
+from .fixed import ONE
+from .plan import quantize_sharpness
+from .reference import light as reference
 
 MODELS = {name: getattr(k, "MODEL_" + name.upper().replace("-", "_")) for name in reference.MODELS}
 FORMS = {"paper": k.FORM_PAPER, "refined": k.FORM_REFINED}

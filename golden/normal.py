@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden import contract as k
-from golden.fixed import ONE, Int, clamp, integers, limit, round, rsqrt, weigh, wrap
-from golden.stream import walk
+from . import contract as k
+from .fixed import ONE, Int, clamp, integers, limit, round, rsqrt, weigh, wrap
+from .stream import walk
 
 
 def normalize(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Int, Int, Int]:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from golden import contract as k
-from golden.registers import Field
+from . import contract as k
+from .registers import Field
 
 
 @dataclass(frozen=True)

@@ -22,10 +22,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden import contract as k
-from golden.fixed import ONE, Int, clamp, integers, round, weigh, wrap
-from golden.poly import span_log2
-from golden.stream import walk
+from . import contract as k
+from .fixed import ONE, Int, clamp, integers, round, weigh, wrap
+from .poly import span_log2
+from .stream import walk
 
 KAPPA_F = k.KAPPA_F
 KAPPA_MAX = (1 << k.KAPPA_W) - 1

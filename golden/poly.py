@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden import contract as k
-from golden.fixed import Int, integers, round, saturate, third
-from golden.stream import walk
+from . import contract as k
+from .fixed import Int, integers, round, saturate, third
+from .stream import walk
 
 
 def coef_a(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:

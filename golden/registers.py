@@ -1,7 +1,7 @@
 """The register map of the core: the one source for its AXI4-Lite slave, for drivers and for ``docs/registers.md``.
 
 Registers of 32 bits, by byte offset. Fields of material and light bear the names that ``golden.material`` gives to
-their values, so that ``pack(registers(material, light))`` is what a driver has to write. ``python -m scripts.generate``
+their values, so that ``pack(registers(material, light))`` is what a driver has to write. ``make generate``
 takes offsets, positions and resets into ``rtl/shade_pkg.sv``.
 """
 
@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from golden import contract as k
-from golden.plan import THRESHOLDS
+from . import contract as k
+from .plan import THRESHOLDS
 
 VERSION = (0, 1, 0)
 ID = int.from_bytes(b"PSHD", "big")

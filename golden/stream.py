@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from golden.fixed import Int, integers
+from .fixed import Int, integers
 
 
 def walk(count: ArrayLike) -> tuple[Int, Int]:

@@ -1,6 +1,6 @@
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
-// Generated from golden/contract.py and golden/registers.py by `python -m scripts.generate`: change them there.
+// Generated from golden/contract.py and golden/registers.py by `make generate`: change them there.
 // W: width in bits, F: fraction bits among them. S1.16: sign, 1 integer bit, 16 fraction bits.
 // Latencies are in clocks from an input taken to the output that it causes.
 

@@ -12,13 +12,12 @@ from pathlib import Path
 
 import click
 from click.core import ParameterSource
-
-from golden.material import MODELS, Material
-from golden.reference.light import ROWS
-from sim import SimulationError, batch, frame
-from sim.errors import UserError
-from sim.scene.camera import PROJECTIONS, Camera
-from sim.sources import BUILD
+from polyshade.golden.material import MODELS, Material
+from polyshade.golden.reference.light import ROWS
+from polyshade.sim import SimulationError, batch, frame
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.camera import PROJECTIONS, Camera
+from polyshade.sim.sources import BUILD
 
 VIEW, SURFACE = Camera(), Material()
 PATH_OF = {  # options of one path
@@ -175,7 +174,7 @@ def rerun() -> str:
 @click.option("--out", default=None, help="Folder.  [default: build/gallery]")
 def gallery(mesh: str, size: int, scheduler: str | None, out: str | None) -> None:
     """Every model, energy scale and form through the RTL: gallery.png, report.json."""
-    from scripts import gallery as command
+    from polyshade.scripts.studies import gallery as command
 
     folder = folder_of(out, Path("gallery"))
     with simulating():
@@ -189,7 +188,7 @@ def gallery(mesh: str, size: int, scheduler: str | None, out: str | None) -> Non
 @click.option("--seed", default=1, help="Seed of the random ones.")
 def units(vectors: int, seed: int) -> None:
     """Measure every unit, both forms: vectors, mismatches, worst errors; leaves build/units.json."""
-    from scripts import units as command
+    from polyshade.scripts.studies import units as command
 
     sys.exit(command.main(vectors, seed))
 
@@ -197,7 +196,7 @@ def units(vectors: int, seed: int) -> None:
 @cli.command()
 def bench() -> None:
     """Measure speed: simulator, cocotb, golden model; leaves build/bench.json."""
-    from scripts import bench as command
+    from polyshade.scripts.studies import bench as command
 
     command.main()
 
@@ -205,7 +204,7 @@ def bench() -> None:
 @cli.command()
 def papers() -> None:
     """Check every claim of the papers and draw their figures again; leaves build/papers.json."""
-    from scripts import papers as command
+    from polyshade.scripts.studies import papers as command
 
     command.main()
 
@@ -214,7 +213,7 @@ def papers() -> None:
 @click.argument("module", nargs=-1)
 def synth(module: tuple[str, ...]) -> None:
     """Synthesize every module (or those named) for every FPGA family; leaves build/synth.json."""
-    from scripts import synth as command
+    from polyshade.scripts.flow import synth as command
 
     command.main(list(module))
 

@@ -1,5 +1,5 @@
 """Everything that runs the RTL: :func:`load` makes any module a NumPy-callable object."""
 
-from sim.model import Model, Run, SimulationError, load
+from polyshade.sim.model import Model, Run, SimulationError, load
 
 __all__ = ["Model", "Run", "SimulationError", "load"]

@@ -22,12 +22,11 @@ import numpy as np
 from distributed.comm import CommClosedError
 from numpy.typing import NDArray
 from PIL import Image
+from polyshade.sim import frame
+from polyshade.sim.errors import UserError
+from polyshade.sim.frame import Settings
+from polyshade.sim.scene.mesh import Mesh, load_mesh
 from tqdm import tqdm
-
-from sim import frame
-from sim.errors import UserError
-from sim.frame import Settings
-from sim.scene.mesh import Mesh, load_mesh
 
 FRAMES_MAX = 3600
 MILLISECONDS = 80  # that a frame of an animation is shown

@@ -12,14 +12,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-import sim
-from golden import contract as k
-from golden import core as golden
-from golden import registers
-from golden.normal import pack_lines
-from golden.reference.light import dot, unit
-from sim.scene.raster import Spans
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import core as golden
+from polyshade.golden import registers
+from polyshade.golden.normal import pack_lines
+from polyshade.golden.reference.light import dot, unit
+from polyshade.sim.scene.raster import Spans
 
 Ints = NDArray[np.int64]
 TAGS = 1 << k.TAG_W

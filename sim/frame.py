@@ -16,18 +16,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
+from polyshade.golden import contract
+from polyshade.golden.material import FORMS, Material, planner_registers, registers
+from polyshade.golden.plan import criterion
+from polyshade.golden.reference.light import dot
+from polyshade.sim import core, tools
+from polyshade.sim.core import quantize
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.camera import Camera
+from polyshade.sim.scene.mesh import Mesh, load_mesh
+from polyshade.sim.scene.raster import Spans, expand, resolve, scan_convert
 from tqdm import tqdm
-
-from golden import contract
-from golden.material import FORMS, Material, planner_registers, registers
-from golden.plan import criterion
-from golden.reference.light import dot
-from sim import core, tools
-from sim.core import quantize
-from sim.errors import UserError
-from sim.scene.camera import Camera
-from sim.scene.mesh import Mesh, load_mesh
-from sim.scene.raster import Spans, expand, resolve, scan_convert
 
 PATHS = {"poly": contract.PATH_POLY, "normals": contract.PATH_NORMALS}
 EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}

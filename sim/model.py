@@ -17,11 +17,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-
-from sim import verilate
-from sim.errors import UserError
-from sim.sources import BUILD
-from sim.verilate import Port
+from polyshade.sim import verilate
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import BUILD
+from polyshade.sim.verilate import Port
 
 WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows of uint32, least significant first
 
@@ -211,8 +210,8 @@ class Model:
         """A command to paste at the repository's root that runs one row of inputs with a waveform.
 
         >>> print(sim.load("shade_third", WIDTH=18).again(x_i=100))
-        python -c 'import sim; print(sim.load("shade_third", waves=True, WIDTH=18).run(x_i=0x64).outputs)'
-        """
+        python -c 'from polyshade import sim; print(sim.load("shade_third", waves=True, WIDTH=18).run(x_i=0x64).outputs)'
+        """  # noqa: E501
 
         def shown(value: ArrayLike) -> str:
             parts = np.asarray(value)
@@ -223,7 +222,8 @@ class Model:
         if writes:
             given.append(f"writes={{{', '.join(f'{offset:#x}: {word:#x}' for offset, word in writes.items())}}}")
         row = ", ".join(given)
-        return f"python -c 'import sim; print(sim.load(\"{self.module}\", waves=True{point}).run({row}).outputs)'"
+        call = f'sim.load("{self.module}", waves=True{point}).run({row})'
+        return f"python -c 'from polyshade import sim; print({call}.outputs)'"
 
     def _inputs(self, inputs: dict[str, ArrayLike]) -> tuple[int, list[np.ndarray]]:
         """The number of rows, and the inputs, checked, in the order of the ports and as harness.cpp reads them."""

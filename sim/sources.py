@@ -5,7 +5,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
 FILE_LIST = ROOT / "rtl" / "shade.f"
-YARDSTICKS = ROOT / "scripts" / "yardsticks"
+YARDSTICKS = ROOT / "scripts" / "studies" / "yardsticks"
 
 Point = dict[str, int]  # parameters of a module
 

@@ -19,7 +19,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.errors import UserError
+from polyshade.sim.errors import UserError
 
 # cocotb 2.1 refuses an older Verilator; 6 may change what this project relies on.
 VERILATOR_FIRST, VERILATOR_PAST = (5, 36), (6, 0)

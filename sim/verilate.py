@@ -19,9 +19,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim import tools
-from sim.errors import UserError
-from sim.sources import BUILD, label, modules, sources, yardsticks
+from polyshade.sim import tools
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import BUILD, label, modules, sources, yardsticks
 
 HERE = Path(__file__).resolve().parent
 CACHE = BUILD / "sim"

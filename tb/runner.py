@@ -22,10 +22,9 @@ from xml.etree import ElementTree
 
 import pytest
 from cocotb_tools.runner import get_runner
-
-from sim import tools
-from sim.sources import BUILD, Point, label, modules
-from sim.verilate import reached
+from polyshade.sim import tools
+from polyshade.sim.sources import BUILD, Point, label, modules
+from polyshade.sim.verilate import reached
 
 SEED = int(os.environ.get("SEED", "1"))
 WAVES = os.environ.get("WAVES", "0") not in ("", "0")

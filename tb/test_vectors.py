@@ -5,11 +5,11 @@ The vectors, the golden twin and the exact value of each formula stand in ``sim/
 
 import numpy as np
 import pytest
+from polyshade.golden import contract as k
+from polyshade.golden import light, normal
+from polyshade.golden.fixed import ONE
+from polyshade.sim.units import Case, cases, check_pixel_normals, check_poly_span, unit_vectors
 
-from golden import contract as k
-from golden import light, normal
-from golden.fixed import ONE
-from sim.units import Case, cases, check_pixel_normals, check_poly_span, unit_vectors
 from tb.runner import SEED
 
 FULL = 10_000_000

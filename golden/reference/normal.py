@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import ArrayLike, NDArray
 
-from golden import contract as k
+from .. import contract as k
 
 Floats = NDArray[np.float64]
 Quantizer = Callable[[ArrayLike], ArrayLike]

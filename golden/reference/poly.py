@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from golden import contract as k
+from .. import contract as k
 
 Floats = NDArray[np.float64]
 

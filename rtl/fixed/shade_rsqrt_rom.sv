@@ -1,6 +1,6 @@
 // shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
 //
-// Generated from golden.fixed.rsqrt_rom by `python -m scripts.generate`: change it there.
+// Generated from polyshade.golden.fixed.rsqrt_rom by `make generate`: change it there.
 // row_o = {c0, c1, c2}: c0 U0.22, with the half ulp of the result's rounding; c1 S0.18, negative; c2 U0.12, 11 bits;
 // rows below segment 32 are 0. Block RAM or LUTs, as the tool sees fit (6,528 bits). Latency 1 clock, one row a clock.
 // Example: i = 32 -> c0 = 1/sqrt(1 + 1/64) + 2^-21.

@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-
-from sim.errors import UserError
+from polyshade.sim.errors import UserError
 
 if TYPE_CHECKING:
-    from sim.scene.mesh import Mesh
+    from polyshade.sim.scene.mesh import Mesh
 
 Floats = NDArray[np.float64]
 

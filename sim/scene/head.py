@@ -14,8 +14,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-
-from sim.errors import UserError
+from polyshade.sim.errors import UserError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

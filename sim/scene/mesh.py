@@ -12,11 +12,10 @@ from pathlib import Path
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
-
-from sim.errors import UserError
-from sim.scene.formats import read_surface
-from sim.scene.head import head_polygons
-from sim.scene.subdivide import catmull_clark, triangulate
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.formats import read_surface
+from polyshade.sim.scene.head import head_polygons
+from polyshade.sim.scene.subdivide import catmull_clark, triangulate
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.integer]

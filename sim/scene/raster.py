@@ -23,9 +23,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-
-from golden.stream import walk
-from sim.scene.camera import Screen
+from polyshade.golden.stream import walk
+from polyshade.sim.scene.camera import Screen
 
 SUBPIXELS = 256
 """Positions a vertex can take along one pixel."""

@@ -3,10 +3,10 @@
 One file a folder of ``rtl/``, of ``light`` two; ``case`` says what is measured and makes the vectors.
 """
 
-from sim.units import fixed, light, normal, plan, poly, reflectance, stream
-from sim.units.case import FORMS, Case, Result
-from sim.units.normal import unit_vectors
-from sim.units.stream import check_pixel_normals, check_poly_span
+from polyshade.sim.units import fixed, light, normal, plan, poly, reflectance, stream
+from polyshade.sim.units.case import FORMS, Case, Result
+from polyshade.sim.units.normal import unit_vectors
+from polyshade.sim.units.stream import check_pixel_normals, check_poly_span
 
 __all__ = ["FORMS", "Case", "Result", "cases", "check_pixel_normals", "check_poly_span", "unit_vectors"]
 

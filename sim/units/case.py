@@ -14,9 +14,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-
-import sim
-from golden import contract as k
+from polyshade import sim
+from polyshade.golden import contract as k
 
 Arrays = dict[str, np.ndarray]
 CHUNK = 1 << 20

@@ -6,10 +6,9 @@ import itertools
 from collections.abc import Iterator
 
 import numpy as np
-
-from golden import contract as k
-from golden import fixed
-from sim.units.case import FORMS, Arrays, Case, Real, every, in_forms, mixed, shortened, signed_range
+from polyshade.golden import contract as k
+from polyshade.golden import fixed
+from polyshade.sim.units.case import FORMS, Arrays, Case, Real, every, in_forms, mixed, shortened, signed_range
 
 
 def _steps(form: str) -> Iterator[Case]:

@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
-
-from golden import contract as k
-from golden import light, material
-from sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, mixed, signed_range
-from sim.units.normal import ends
+from polyshade.golden import contract as k
+from polyshade.golden import light, material
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, mixed, signed_range
+from polyshade.sim.units.normal import ends
 
 LIMITS = signed_range(k.INTENSITY_W)
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-
-from golden import contract as k
-from golden import normal
-from sim.units.case import (
+from polyshade.golden import contract as k
+from polyshade.golden import normal
+from polyshade.sim.units.case import (
     FORMS,
     ONE,
     Arrays,

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-
-from golden import contract as k
-from golden import plan
-from sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, late, mixed, signed_range, thresholds
-from sim.units.normal import DEGREES, cosine, true_invc
+from polyshade.golden import contract as k
+from polyshade.golden import plan
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, late, mixed, signed_range, thresholds
+from polyshade.sim.units.normal import DEGREES, cosine, true_invc
 
 
 def _criterion(form: str) -> Iterator[Case]:

@@ -6,10 +6,9 @@ import itertools
 from collections.abc import Callable, Iterator
 
 import numpy as np
-
-from golden import contract as k
-from golden import poly
-from sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, late, mixed, signed_range
+from polyshade.golden import contract as k
+from polyshade.golden import poly
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, late, mixed, signed_range
 
 # numerators over 3 of the cubic's coefficients, in I1 .. I4 (P1, section IV, both parts brought together)
 CUBIC = {

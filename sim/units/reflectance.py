@@ -9,12 +9,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
-
-from golden import contract as k
-from golden import fixed, light, material
-from golden.reference.light import ROWS
-from sim.units.case import FORMS, ONE, Arrays, Case, in_forms, mixed, signed_range
-from sim.units.normal import unit_vectors
+from polyshade.golden import contract as k
+from polyshade.golden import fixed, light, material
+from polyshade.golden.reference.light import ROWS
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, in_forms, mixed, signed_range
+from polyshade.sim.units.normal import unit_vectors
 
 Real = np.float64  # no value here needs more than 53 bits to be right within 2^-30 ulp
 CHUNK = 250_000

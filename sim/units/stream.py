@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-
-import sim
-from golden import contract as k
-from golden import normal, poly
-from sim.units.case import FORMS, ONE, Case, Real, Result, hexadecimal, in_forms, mixed
-from sim.units.normal import unit_vectors
-from sim.units.poly import coefficient
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import normal, poly
+from polyshade.sim.units.case import FORMS, ONE, Case, Real, Result, hexadecimal, in_forms, mixed
+from polyshade.sim.units.normal import unit_vectors
+from polyshade.sim.units.poly import coefficient
 
 
 def check_poly_span(

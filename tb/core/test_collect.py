@@ -3,11 +3,11 @@
 import random
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.core import collect
+from polyshade.golden.plan import node_walk
+from polyshade.golden.poly import pack_spans
 
-from golden import contract as k
-from golden.core import collect
-from golden.plan import node_walk
-from golden.poly import pack_spans
 from tb.bench import TRAFFIC, Bench, checked, patterns
 from tb.core.vectors import whole
 from tb.plan.test_node_walk import spans

@@ -16,11 +16,11 @@ from cocotbext.axi import (
     AxiStreamSink,
     AxiStreamSource,
 )
+from polyshade.golden import contract as k
+from polyshade.golden.core import Told
+from polyshade.golden.core import core as golden_core
+from polyshade.golden.registers import ID, after_reset, pack, registers, unpack
 
-from golden import contract as k
-from golden.core import Told
-from golden.core import core as golden_core
-from golden.registers import ID, after_reset, pack, registers, unpack
 from tb.bench import PRESSURE, Bench, Mismatch, checked, no_path
 from tb.core.vectors import Spans, settings, spans
 from tb.light.vectors import CODES

@@ -4,9 +4,9 @@ import random
 
 import cocotb
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.core import Drawn, lane
 
-from golden import contract as k
-from golden.core import Drawn, lane
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
 from tb.core.vectors import Spans, set_draw, settings, spans
 from tb.light.vectors import CODES

@@ -2,9 +2,9 @@
 
 import cocotb
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.core import paint
 
-from golden import contract as k
-from golden.core import paint
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
 from tb.core.vectors import set_draw, settings
 from tb.runner import points, simulate

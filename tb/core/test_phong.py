@@ -2,10 +2,10 @@
 
 import cocotb
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.core import phong
+from polyshade.golden.normal import line_errors
 
-from golden import contract as k
-from golden.core import phong
-from golden.normal import line_errors
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
 from tb.core.vectors import Spans, set_draw, settings, spans
 from tb.light.vectors import CODES

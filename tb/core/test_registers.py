@@ -6,9 +6,9 @@ from collections.abc import Iterable
 
 import cocotb
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
+from polyshade.golden import registers
+from polyshade.golden.core import RegisterFile
 
-from golden import registers
-from golden.core import RegisterFile
 from tb.bench import PRESSURE, Bench, Mismatch, Sink, Source, checked, no_path
 from tb.runner import simulate
 

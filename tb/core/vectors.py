@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from polyshade.golden import contract as k
+from polyshade.golden.fixed import ONE
+from polyshade.golden.material import Material, colour_registers, planner_registers
+from polyshade.golden.normal import pack_lines
+from polyshade.golden.registers import pack_draw
 
-from golden import contract as k
-from golden.fixed import ONE
-from golden.material import Material, colour_registers, planner_registers
-from golden.normal import pack_lines
-from golden.registers import pack_draw
 from tb.bench import Bench
 from tb.light.vectors import NAMES, registers
 

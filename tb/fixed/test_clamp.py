@@ -1,8 +1,8 @@
 """shade_clamp: into [0, 1], and told, to the bit of golden.fixed.clamp."""
 
 import numpy as np
+from polyshade.golden import fixed
 
-from golden import fixed
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

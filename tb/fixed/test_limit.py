@@ -1,8 +1,8 @@
 """shade_limit: a signed number into fewer bits, to the bit of golden.fixed.limit."""
 
 import numpy as np
+from polyshade.golden import fixed
 
-from golden import fixed
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

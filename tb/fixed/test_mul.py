@@ -1,8 +1,8 @@
 """shade_mul: the exact product, with operands of up to 18 bits and longer ones, with registers and without."""
 
 import numpy as np
+from polyshade.golden import fixed
 
-from golden import fixed
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

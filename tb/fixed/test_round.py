@@ -1,8 +1,8 @@
 """shade_round: to nearest, ties up, to the bit of golden.fixed.round."""
 
 import numpy as np
+from polyshade.golden import fixed
 
-from golden import fixed
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

@@ -1,9 +1,9 @@
 """shade_rsqrt: mantissa and exponent of a reciprocal square root, to the bit of golden.fixed.rsqrt, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.fixed import rsqrt
 
-from golden import contract as k
-from golden.fixed import rsqrt
 from tb.bench import TRAFFIC, Bench, checked
 from tb.runner import simulate
 

@@ -1,9 +1,9 @@
 """shade_rsqrt_rom: every row of golden.fixed.rsqrt_rom, with the half ulp that rounds the result."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.fixed import rsqrt_rom
 
-from golden import contract as k
-from golden.fixed import rsqrt_rom
 from tb.bench import Bench, checked
 from tb.runner import simulate
 

@@ -1,8 +1,8 @@
 """shade_saturate: clamped to what the output can hold, to the bit of golden.fixed.saturate."""
 
 import numpy as np
+from polyshade.golden import fixed
 
-from golden import fixed
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

@@ -1,7 +1,8 @@
 """shade_square: the exact square."""
 
-from golden import contract as k
-from golden import fixed
+from polyshade.golden import contract as k
+from polyshade.golden import fixed
+
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

@@ -1,6 +1,7 @@
 """shade_square_fabric: the exact square without a multiplier, to the bit of golden.fixed.square."""
 
-from golden import fixed
+from polyshade.golden import fixed
+
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

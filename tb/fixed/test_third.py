@@ -1,9 +1,9 @@
 """shade_third: a third, to the bit of golden.fixed.third, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.fixed import third
 
-from golden import contract as k
-from golden.fixed import third
 from tb.bench import TRAFFIC, Bench, checked
 from tb.runner import points, simulate
 

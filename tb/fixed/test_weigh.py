@@ -1,7 +1,8 @@
 """shade_weigh: a weighted sum, to the bit of golden.fixed.weigh, for constants of any sign."""
 
-from golden import contract as k
-from golden import fixed
+from polyshade.golden import contract as k
+from polyshade.golden import fixed
+
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
 

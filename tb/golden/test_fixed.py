@@ -7,9 +7,9 @@ from math import floor
 
 import numpy as np
 import pytest
+from polyshade.golden import fixed
+from polyshade.golden.contract import FORM_PAPER
 
-from golden import fixed
-from golden.contract import FORM_PAPER
 from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)

@@ -4,10 +4,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
-from golden import contract as k
-from golden import light
-from golden.fixed import ONE
+from polyshade.golden import contract as k
+from polyshade.golden import light
+from polyshade.golden.fixed import ONE
 
 AXES = np.eye(3, dtype=int) * ONE
 TWO = 2 << k.VERSINE_F  # x of opposite vectors

@@ -6,12 +6,12 @@ from math import nan, pi
 
 import numpy as np
 import pytest
+from polyshade.golden import contract as k
+from polyshade.golden import light, material
+from polyshade.golden.fixed import ONE
+from polyshade.golden.material import Material, registers
+from polyshade.golden.reference import light as reference
 
-from golden import contract as k
-from golden import light, material
-from golden.fixed import ONE
-from golden.material import Material, registers
-from golden.reference import light as reference
 from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)

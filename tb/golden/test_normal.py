@@ -1,9 +1,9 @@
 """golden.normal: the recurrence of the increments, step by step; lines of normals by hand."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden import normal
 
-from golden import contract as k
-from golden import normal
 from tb.runner import SEED
 
 ONE = 1 << k.INTENSITY_F

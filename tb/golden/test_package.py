@@ -13,14 +13,13 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from polyshade import golden
+from polyshade.golden import contract as k
+from polyshade.golden import registers
+from polyshade.scripts.flow import generate
+from polyshade.sim.sources import ROOT
 
-import golden
-from golden import contract as k
-from golden import registers
-from scripts import generate
-from sim.sources import ROOT
-
-MODULES = ["golden", *(module.name for module in pkgutil.walk_packages(golden.__path__, "golden."))]
+MODULES = ["polyshade.golden", *(m.name for m in pkgutil.walk_packages(golden.__path__, "polyshade.golden."))]
 
 
 @pytest.fixture(params=MODULES)
@@ -35,7 +34,7 @@ def test_doctests(module: ModuleType) -> None:
 def test_there_are_doctests() -> None:
     """In every public function of the integer models."""
     finder = doctest.DocTestFinder(exclude_empty=True)
-    for name in ("golden.fixed", "golden.poly"):
+    for name in ("polyshade.golden.fixed", "polyshade.golden.poly"):
         shown = {test.name for test in finder.find(importlib.import_module(name)) if test.examples}
         assert len(shown) >= 4, name
 
@@ -53,24 +52,25 @@ import sys
 before = set(sys.modules)
 for name in sys.argv[2:]:
     __import__(name)
-golden = sys.modules["golden"]
+golden = sys.modules["mine.golden"]
 assert golden.__file__.startswith(sys.argv[1]), golden.__file__
 roots = {name.partition(".")[0] for name in set(sys.modules) - before} - set(sys.stdlib_module_names)
 print(*sorted(root for root in roots if not root.startswith("_")))
-from golden import poly
+from mine.golden import poly
 print(poly.poly_span([[[0, 32768, 0, 0]] * 2], [1], [3])[0].tolist())
 """
 
 
 def test_importable_alone(tmp_path: Path) -> None:
     """A copy of the folder, anywhere, needs NumPy and nothing else."""
-    shutil.copytree(ROOT / "golden", tmp_path / "golden", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "golden", tmp_path / "mine" / "golden", ignore=shutil.ignore_patterns("__pycache__"))
+    names = [name.replace("polyshade", "mine") for name in MODULES]
     done = subprocess.run(
-        [sys.executable, "-c", ALONE, str(tmp_path), *MODULES], cwd=tmp_path, env={"PYTHONDONTWRITEBYTECODE": "1"},
+        [sys.executable, "-c", ALONE, str(tmp_path), *names], cwd=tmp_path, env={"PYTHONDONTWRITEBYTECODE": "1"},
         capture_output=True, text=True, timeout=60,
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.splitlines() == ["golden numpy", "[[0, 0], [16384, 16384], [32768, 32768]]"]
+    assert done.stdout.splitlines() == ["mine numpy", "[[0, 0], [16384, 16384], [32768, 32768]]"]
 
 
 def test_examples_of_the_readme() -> None:
@@ -88,7 +88,11 @@ def test_examples_of_the_readme() -> None:
 
 def test_the_package_of_the_rtl_is_up_to_date() -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "scripts.generate", "--check"], cwd=ROOT, capture_output=True, text=True, timeout=60
+        [sys.executable, "-m", "polyshade.scripts.flow.generate", "--check"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-
-from golden import contract as k
-from golden.normal import pack_lines
-from golden.packets import LINE, PACKETS, SPAN, Packet
-from golden.poly import pack_spans
-from golden.registers import Field
+from polyshade.golden import contract as k
+from polyshade.golden.normal import pack_lines
+from polyshade.golden.packets import LINE, PACKETS, SPAN, Packet
+from polyshade.golden.poly import pack_spans
+from polyshade.golden.registers import Field
 
 
 def whole(words: np.ndarray) -> int:

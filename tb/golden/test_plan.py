@@ -6,10 +6,10 @@ import itertools
 
 import numpy as np
 import pytest
+from polyshade.golden import contract as k
+from polyshade.golden import plan, poly
+from polyshade.golden.reference import light
 
-from golden import contract as k
-from golden import plan, poly
-from golden.reference import light
 from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)

@@ -8,10 +8,10 @@ from math import floor
 
 import numpy as np
 import pytest
+from polyshade.golden import contract as k
+from polyshade.golden import poly
+from polyshade.golden.reference.poly import NODES
 
-from golden import contract as k
-from golden import poly
-from golden.reference.poly import NODES
 from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)

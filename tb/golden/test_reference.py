@@ -7,9 +7,9 @@ from math import cos, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
+from polyshade.golden import contract as k
+from polyshade.golden.reference import light, poly
 
-from golden import contract as k
-from golden.reference import light, poly
 from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)

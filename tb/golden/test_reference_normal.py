@@ -7,11 +7,11 @@ from math import cos, pi, radians, sqrt
 
 import numpy as np
 import pytest
+from polyshade.golden import contract as k
+from polyshade.golden import normal as golden
+from polyshade.golden import plan
+from polyshade.golden.reference import normal as reference
 
-from golden import contract as k
-from golden import normal as golden
-from golden import plan
-from golden.reference import normal as reference
 from tb.runner import SEED
 
 ONE = 1 << 16

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-
-from golden import contract as k
-from golden import light
-from golden.fixed import ONE
-from golden.material import MODELS, Material, registers
+from polyshade.golden import contract as k
+from polyshade.golden import light
+from polyshade.golden.fixed import ONE
+from polyshade.golden.material import MODELS, Material, registers
 
 Z = (0, 0, ONE)
 PHYSICAL = ("cook-torrance", "ward")

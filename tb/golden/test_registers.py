@@ -6,12 +6,11 @@ import re
 import tomllib
 
 import pytest
-
-from golden import material, registers
-from golden.material import MODELS, Material
-from golden.plan import THRESHOLDS
-from scripts import generate
-from sim.sources import ROOT
+from polyshade.golden import material, registers
+from polyshade.golden.material import MODELS, Material
+from polyshade.golden.plan import THRESHOLDS
+from polyshade.scripts.flow import generate
+from polyshade.sim.sources import ROOT
 
 ALL = list(registers.registers())
 

@@ -1,9 +1,9 @@
 """shade_angles: cosines and versines at a node, to the bit of golden.light.angles, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.light import angles
 
-from golden import contract as k
-from golden.light import angles
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import nodes, pack, setting
 from tb.runner import points, simulate

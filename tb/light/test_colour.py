@@ -1,9 +1,9 @@
 """shade_colour: a pixel's red, green and blue, to the bit of golden.light.colour, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.light import colour
 
-from golden import contract as k
-from golden.light import colour
 from tb.bench import TRAFFIC, Bench, checked
 from tb.runner import simulate
 

@@ -1,10 +1,10 @@
 """shade_fresnel: Fresnel's factor, to the bit of golden.light.fresnel, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.fixed import ONE
+from polyshade.golden.light import fresnel
 
-from golden import contract as k
-from golden.fixed import ONE
-from golden.light import fresnel
 from tb.bench import TRAFFIC, Bench, checked
 from tb.runner import simulate
 

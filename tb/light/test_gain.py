@@ -1,7 +1,8 @@
 """shade_gain: lobe times factors and gain, saturated, to the bit of golden.light.gain, on every clock."""
 
-from golden import contract as k
-from golden.light import gain
+from polyshade.golden import contract as k
+from polyshade.golden.light import gain
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import setting, unit_numbers
 from tb.runner import simulate

@@ -1,9 +1,9 @@
 """shade_geometry: masking and quotients of every model, to the bit of golden.light.geometry, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.light import geometry
 
-from golden import contract as k
-from golden.light import geometry
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import CODES, registers, setting, unit_numbers
 from tb.runner import simulate

@@ -1,7 +1,8 @@
 """shade_halfway: the direction between light and viewer, to the bit of golden.light.halfway, on every clock."""
 
-from golden import contract as k
-from golden.light import halfway
+from polyshade.golden import contract as k
+from polyshade.golden.light import halfway
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import pairs
 from tb.runner import simulate

@@ -1,7 +1,8 @@
 """shade_light: light at a node, directional, in every model, to the bit of golden.light.light, on every clock."""
 
-from golden import contract as k
-from golden.light import light
+from polyshade.golden import contract as k
+from polyshade.golden.light import light
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import CODES, components, nodes, registers, setting
 from tb.runner import points, simulate

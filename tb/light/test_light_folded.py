@@ -2,8 +2,9 @@
 
 import random
 
-from golden import contract as k
-from golden.light import light
+from polyshade.golden import contract as k
+from polyshade.golden.light import light
+
 from tb.bench import Bench, checked
 from tb.light.vectors import CODES, nodes, registers, setting
 from tb.runner import points, simulate

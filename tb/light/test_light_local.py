@@ -1,7 +1,8 @@
 """shade_light_local: light and viewer of every node, every model, to the bit of golden.light.light_local."""
 
-from golden import contract as k
-from golden.light import light_local
+from polyshade.golden import contract as k
+from polyshade.golden.light import light_local
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import CODES, components, nodes, registers, setting
 from tb.runner import points, simulate

@@ -2,9 +2,10 @@
 
 import random
 
-from golden import contract as k
-from golden.light import lobe
-from golden.material import fit, lobe_registers
+from polyshade.golden import contract as k
+from polyshade.golden.light import lobe
+from polyshade.golden.material import fit, lobe_registers
+
 from tb.bench import TRAFFIC, Bench, checked, patterns
 from tb.runner import points, simulate
 

@@ -1,7 +1,8 @@
 """shade_reflect: the mirrored direction, to the bit of golden.light.reflect, on every clock."""
 
-from golden import contract as k
-from golden.light import reflect
+from polyshade.golden import contract as k
+from polyshade.golden.light import reflect
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import pairs
 from tb.runner import simulate

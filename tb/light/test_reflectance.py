@@ -1,9 +1,9 @@
 """shade_reflectance: light at a node in every model, to the bit of golden.light.reflectance, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.light import reflectance
 
-from golden import contract as k
-from golden.light import reflectance
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import CODES, nodes, pack, registers, setting, unit_numbers
 from tb.runner import points, simulate

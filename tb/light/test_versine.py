@@ -1,7 +1,8 @@
 """shade_versine: 1 - cos of an angle by chord or dot product, to the bit of golden.light.versine, on every clock."""
 
-from golden import contract as k
-from golden.light import versine
+from polyshade.golden import contract as k
+from polyshade.golden.light import versine
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import pairs
 from tb.runner import points, simulate

@@ -1,10 +1,10 @@
 """Inputs that several benches of rtl/light share, by port."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden import material
+from polyshade.golden.fixed import ONE
 
-from golden import contract as k
-from golden import material
-from golden.fixed import ONE
 from tb.bench import Bench
 from tb.normal.vectors import pairs
 

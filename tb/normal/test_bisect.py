@@ -1,7 +1,8 @@
 """shade_bisect: the scaled sum of two vectors, to the bit of golden.normal.bisect; the scale comes WAIT clocks late."""
 
-from golden import contract as k
-from golden.normal import bisect
+from polyshade.golden import contract as k
+from polyshade.golden.normal import bisect
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import pairs
 from tb.runner import points, simulate

@@ -1,7 +1,8 @@
 """shade_dot3: the dot product, rounded once, to the bit of golden.normal.dot3, on every clock."""
 
-from golden import contract as k
-from golden.normal import dot3
+from polyshade.golden import contract as k
+from polyshade.golden.normal import dot3
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import pairs
 from tb.runner import simulate

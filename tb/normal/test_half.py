@@ -1,8 +1,9 @@
 """shade_half: the cosine of half an angle, to the bit of golden.normal.half; the powers come a clock late."""
 
-from golden import contract as k
-from golden.normal import half
-from scripts.points import grid
+from polyshade.golden import contract as k
+from polyshade.golden.normal import half
+from polyshade.scripts.flow.points import grid
+
 from tb.bench import Bench, checked
 from tb.normal.vectors import cosines
 from tb.runner import points, simulate

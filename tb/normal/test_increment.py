@@ -1,9 +1,9 @@
 """shade_increment: normals from pixel to pixel and from line to line, to the bit of golden.normal.increment."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.normal import increment
 
-from golden import contract as k
-from golden.normal import increment
 from tb.bench import Bench, checked
 from tb.runner import simulate
 

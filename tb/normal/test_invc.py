@@ -1,7 +1,8 @@
 """shade_invc: 1/sqrt(2 (1 + c)) and the cosine of the half angle, to the bit of golden.normal.invc."""
 
-from golden import contract as k
-from golden.normal import invc
+from polyshade.golden import contract as k
+from polyshade.golden.normal import invc
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import cosines
 from tb.runner import points, simulate

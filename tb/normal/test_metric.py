@@ -1,9 +1,9 @@
 """shade_metric: P4's two lengths, the decisions and what was out of range, to the bit of golden.normal.metric."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.normal import metric
 
-from golden import contract as k
-from golden.normal import metric
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import cosines
 from tb.runner import simulate

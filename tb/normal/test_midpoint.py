@@ -1,7 +1,8 @@
 """shade_midpoint: the normal in the middle of two, to the bit of golden.normal.midpoint, on every clock."""
 
-from golden import contract as k
-from golden.normal import midpoint
+from polyshade.golden import contract as k
+from polyshade.golden.normal import midpoint
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import arcs
 from tb.runner import points, simulate

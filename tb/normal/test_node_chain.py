@@ -1,7 +1,8 @@
 """shade_node_chain: five normals of an arc, to the bit of golden.normal.node_chain, on every clock."""
 
-from golden import contract as k
-from golden.normal import node_chain
+from polyshade.golden import contract as k
+from polyshade.golden.normal import node_chain
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import arcs
 from tb.runner import points, simulate

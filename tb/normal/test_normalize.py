@@ -1,9 +1,9 @@
 """shade_normalize: unit vectors of vectors of every length, to the bit of golden.normal.normalize, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.normal import normalize
 
-from golden import contract as k
-from golden.normal import normalize
 from tb.bench import TRAFFIC, Bench, checked
 from tb.runner import simulate
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import cocotb
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.normal import line_errors, pack_lines, pixel_normals
 
-from golden import contract as k
-from golden.normal import line_errors, pack_lines, pixel_normals
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
 from tb.runner import simulate
 

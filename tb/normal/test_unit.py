@@ -3,9 +3,9 @@
 import random
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.normal import unit
 
-from golden import contract as k
-from golden.normal import unit
 from tb.bench import TRAFFIC, Bench, checked, patterns
 from tb.runner import points, simulate
 

@@ -1,9 +1,9 @@
 """Inputs that several benches of rtl/normal share, by port."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.normal import dot3
 
-from golden import contract as k
-from golden.normal import dot3
 from tb.bench import Bench
 
 ENDS = [f"{v}{c}_i" for v in "ab" for c in "xyz"]

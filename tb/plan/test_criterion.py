@@ -1,9 +1,9 @@
 """shade_criterion: eta of a triangle and the decision, to the bit of golden.plan.criterion, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.plan import criterion
 
-from golden import contract as k
-from golden.plan import criterion
 from tb.bench import TRAFFIC, Bench, checked
 from tb.normal.vectors import cosines
 from tb.runner import points, simulate

@@ -1,7 +1,8 @@
 """shade_kappa: kappa of an arc from its increment, to the bit of golden.plan.kappa, on every clock."""
 
-from golden import contract as k
-from golden.plan import kappa
+from polyshade.golden import contract as k
+from polyshade.golden.plan import kappa
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.plan.vectors import increments, sharpness
 from tb.runner import simulate

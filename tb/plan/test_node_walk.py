@@ -4,10 +4,10 @@ import random
 
 import cocotb
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.plan import node_walk
+from polyshade.golden.poly import span_log2
 
-from golden import contract as k
-from golden.plan import node_walk
-from golden.poly import span_log2
 from tb.bench import Bench, Mismatch, Source, checked, no_path
 from tb.runner import points, simulate
 

@@ -1,9 +1,9 @@
 """shade_planner: spans cut into records, to the bit of golden.plan.planner, on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.plan import THRESHOLDS, planner
 
-from golden import contract as k
-from golden.plan import THRESHOLDS, planner
 from tb.bench import TRAFFIC, Bench, checked
 from tb.plan.vectors import increments, sharpness
 from tb.runner import simulate

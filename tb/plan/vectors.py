@@ -1,8 +1,8 @@
 """Inputs that several benches of rtl/plan share, by port."""
 
 import numpy as np
+from polyshade.golden import contract as k
 
-from golden import contract as k
 from tb.bench import Bench
 
 

@@ -1,7 +1,8 @@
 """shade_coef: A, B, C and D of every degree side by side, to the bit of golden.poly.coef."""
 
-from golden import contract as k
-from golden.poly import coef
+from polyshade.golden import contract as k
+from polyshade.golden.poly import coef
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.poly.vectors import nodes
 from tb.runner import points, simulate

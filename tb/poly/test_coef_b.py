@@ -1,7 +1,8 @@
 """shade_coef_b: coefficient B of every degree, to the bit of golden.poly.coef_b."""
 
-from golden import contract as k
-from golden.poly import coef_b
+from polyshade.golden import contract as k
+from polyshade.golden.poly import coef_b
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.poly.vectors import nodes
 from tb.runner import points, simulate

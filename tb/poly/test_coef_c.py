@@ -1,8 +1,9 @@
 """shade_coef_c: coefficient C of every degree, to the bit of golden.poly.coef_c."""
 
-from golden import contract as k
-from golden.poly import coef_c
-from scripts.points import grid
+from polyshade.golden import contract as k
+from polyshade.golden.poly import coef_c
+from polyshade.scripts.flow.points import grid
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.poly.vectors import nodes
 from tb.runner import points, simulate

@@ -1,7 +1,8 @@
 """shade_coef_d: coefficient D, the first intensity, when A, B and C are ready."""
 
-from golden import contract as k
-from golden.poly import coef_d
+from polyshade.golden import contract as k
+from polyshade.golden.poly import coef_d
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.runner import points, simulate
 

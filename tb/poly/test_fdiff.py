@@ -1,9 +1,9 @@
 """shade_fdiff: a polynomial by forward differences, to the bit of golden.poly.fdiff, a pixel on every clock."""
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.poly import fdiff
 
-from golden import contract as k
-from golden.poly import fdiff
 from tb.bench import TRAFFIC, Bench, checked
 from tb.poly.vectors import polynomials
 from tb.runner import points, simulate

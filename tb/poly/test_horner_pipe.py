@@ -1,7 +1,8 @@
 """shade_horner_pipe: a polynomial of degree 3, to the bit of golden.poly.horner, a new one on every clock."""
 
-from golden import contract as k
-from golden.poly import horner
+from polyshade.golden import contract as k
+from polyshade.golden.poly import horner
+
 from tb.bench import TRAFFIC, Bench, checked
 from tb.poly.vectors import parameters_t, polynomials
 from tb.runner import points, simulate

@@ -4,10 +4,10 @@ import random
 from collections.abc import Iterator
 
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.fixed import round
+from polyshade.golden.poly import horner
 
-from golden import contract as k
-from golden.fixed import round
-from golden.poly import horner
 from tb.bench import TRAFFIC, Bench, checked, patterns
 from tb.poly.vectors import parameters_t, polynomials
 from tb.runner import points, simulate

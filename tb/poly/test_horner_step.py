@@ -1,7 +1,8 @@
 """shade_horner_step: a rounded product and a sum, to the bit of golden.poly.horner_step; c comes late."""
 
-from golden import contract as k
-from golden.poly import horner_step
+from polyshade.golden import contract as k
+from polyshade.golden.poly import horner_step
+
 from tb.bench import Bench, checked
 from tb.poly.vectors import parameters_t
 from tb.runner import points, simulate

@@ -7,9 +7,9 @@ from itertools import pairwise
 import cocotb
 import numpy as np
 from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSink, AxiStreamSource
+from polyshade.golden import contract as k
+from polyshade.golden.poly import poly_span
 
-from golden import contract as k
-from golden.poly import poly_span
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
 from tb.poly.vectors import Spans, mixed_spans, spans
 from tb.runner import points, simulate

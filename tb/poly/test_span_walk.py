@@ -4,9 +4,9 @@ import random
 
 import cocotb
 import numpy as np
+from polyshade.golden import contract as k
+from polyshade.golden.poly import span_log2, span_walk
 
-from golden import contract as k
-from golden.poly import span_log2, span_walk
 from tb.bench import Bench, Mismatch, Source, checked, no_path
 from tb.poly.vectors import Spans, mixed_spans, spans
 from tb.runner import points, simulate

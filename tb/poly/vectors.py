@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from polyshade.golden import contract as k
+from polyshade.golden.poly import pack_spans, span_errors
 
-from golden import contract as k
-from golden.poly import pack_spans, span_errors
 from tb.bench import Bench
 
 

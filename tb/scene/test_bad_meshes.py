@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
+from polyshade.sim.errors import LONGEST, UserError
+from polyshade.sim.scene.mesh import load_mesh
 
-from sim.errors import LONGEST, UserError
-from sim.scene.mesh import load_mesh
 from tb.scene.bad_meshes import WRITERS, bad_meshes, plant
 
 

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-
-from sim.errors import UserError
-from sim.scene.camera import MARGIN, PROJECTIONS, RANGES, Camera
-from sim.scene.mesh import Mesh, load_mesh
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.camera import MARGIN, PROJECTIONS, RANGES, Camera
+from polyshade.sim.scene.mesh import Mesh, load_mesh
 
 AXES = np.array([(1.0, 0, 0), (0, 1.0, 0), (0, 0, 1.0), (-1.0, 0, 0), (0, -1.0, 0), (0, 0, -1.0)])
 """The corners of an octahedron: to the right, up, to the viewer, and their opposites."""

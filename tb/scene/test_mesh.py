@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene import head as head_module
+from polyshade.sim.scene.mesh import Mesh, load_mesh, vertex_normals
 
-from sim.errors import UserError
-from sim.scene import head as head_module
-from sim.scene.mesh import Mesh, load_mesh, vertex_normals
 from tb.scene.bad_meshes import FACES, POINTS, WRITERS, binary_ply, binary_stl, gltf_tree, obj, off, ply, stl
 
 PLANE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -261,7 +261,7 @@ def test_subdivide_a_file(load) -> None:
 
 
 def test_too_many_triangles(load, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.scene.mesh.MOST_TRIANGLES", 95)
+    monkeypatch.setattr("polyshade.sim.scene.mesh.MOST_TRIANGLES", 95)
     assert len(load(obj(), subdivide=1).faces) == 24
     with pytest.raises(UserError, match=r"mesh\.obj: at --subdivide 2 it has more than 95 triangles$"):
         load(obj(), subdivide=2)

@@ -5,10 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-
-from sim.scene.camera import Camera, Screen
-from sim.scene.mesh import load_mesh
-from sim.scene.raster import REACH, SUBPIXELS, Spans, expand, resolve, scan_convert, snap
+from polyshade.sim.scene.camera import Camera, Screen
+from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.raster import REACH, SUBPIXELS, Spans, expand, resolve, scan_convert, snap
 
 
 def screen(xy: object, depth: object = None, normals: object = None) -> Screen:

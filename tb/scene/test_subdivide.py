@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from sim.scene.subdivide import catmull_clark, triangulate
+from polyshade.sim.scene.subdivide import catmull_clark, triangulate
 
 CUBE = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 SIDES = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])

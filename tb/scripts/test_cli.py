@@ -22,17 +22,18 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from PIL import Image
+from polyshade import sim
+from polyshade.golden import contract, poly, registers
+from polyshade.golden import core as golden
+from polyshade.golden.material import MODELS
+from polyshade.golden.reference.light import ROWS
+from polyshade.scripts import cli
+from polyshade.scripts.studies import bench, units
+from polyshade.sim import batch, core, frame, model, verilate
+from polyshade.sim.errors import LONGEST
+from polyshade.sim.sources import ROOT
+from polyshade.sim.units import Case, cases
 
-import sim
-from golden import contract, poly, registers
-from golden import core as golden
-from golden.material import MODELS
-from golden.reference.light import ROWS
-from scripts import bench, cli, units
-from sim import batch, core, frame, model, verilate
-from sim.errors import LONGEST
-from sim.sources import ROOT
-from sim.units import Case, cases
 from tb.scene import bad_meshes
 
 PICTURES = ["image.png", "reference.png", "difference.png"]
@@ -729,7 +730,7 @@ def test_units(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert status == 1
     assert err.startswith("shade_horner_step/refined: vector 0: s_i=")
     assert "expected 0x1 actual 0x" in err
-    assert "sim.load" in err
+    assert "polyshade.sim.load" in err
 
 
 def test_bench(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -764,7 +765,7 @@ def test_help(polyshade, command: str | None, flag: str) -> None:
 def process(*arguments: str | bytes, **environment: str) -> subprocess.CompletedProcess[str]:
     """The command line in a process of its own."""
     return subprocess.run(
-        [sys.executable, "-m", "scripts.cli", *arguments], cwd=ROOT, env={**os.environ, **environment},
+        [sys.executable, "-m", "polyshade.scripts.cli", *arguments], cwd=ROOT, env={**os.environ, **environment},
         capture_output=True, text=True, errors="surrogateescape", timeout=300,  # the core may have to be compiled
     )  # fmt: skip
 
@@ -808,7 +809,7 @@ def test_process_interrupted(tmp_path: Path) -> None:
     folder = tmp_path / "out"
     folder.mkdir()
     (folder / "image.png").write_text("old")
-    command = [sys.executable, "-m", "scripts.cli", *SMALL, "--out", str(folder)]
+    command = [sys.executable, "-m", "polyshade.scripts.cli", *SMALL, "--out", str(folder)]
     with subprocess.Popen(
         command, cwd=ROOT, env={**os.environ, "VERILATOR": str(slow)}, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,

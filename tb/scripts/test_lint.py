@@ -1,8 +1,7 @@
 """Every check of ``make lint`` as a test of its own."""
 
 import pytest
-
-from scripts import lint
+from polyshade.scripts.flow import lint
 
 
 @pytest.mark.parametrize("item", list(lint.items()), ids=lambda item: item.name.replace(" ", "-"))

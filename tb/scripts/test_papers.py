@@ -7,19 +7,19 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-
-from golden import contract as k
-from golden.reference import light as reference_light
-from golden.reference import poly as reference
-from scripts import papers, svg, waves
-from scripts.papers.claims import check, nmse
-from scripts.papers.lobe import C
-from scripts.papers.p1_arithmetic import signed_digits
-from scripts.papers.p1_light import run_direct, shape
-from scripts.papers.p2_criterion import FORMS, decide, edge_error, edges_of, flat_eta
-from scripts.papers.p3_energy import integral
-from scripts.papers.p4_face import gains, middles
-from sim.scene.mesh import load_mesh
+from polyshade.golden import contract as k
+from polyshade.golden.reference import light as reference_light
+from polyshade.golden.reference import poly as reference
+from polyshade.scripts.drawings import svg, waves
+from polyshade.scripts.studies import papers
+from polyshade.scripts.studies.papers.claims import check, nmse
+from polyshade.scripts.studies.papers.lobe import C
+from polyshade.scripts.studies.papers.p1_arithmetic import signed_digits
+from polyshade.scripts.studies.papers.p1_light import run_direct, shape
+from polyshade.scripts.studies.papers.p2_criterion import FORMS, decide, edge_error, edges_of, flat_eta
+from polyshade.scripts.studies.papers.p3_energy import integral
+from polyshade.scripts.studies.papers.p4_face import gains, middles
+from polyshade.sim.scene.mesh import load_mesh
 
 SIZE = 128
 KEYS = ["paper", "claim", "claimed", "measured", "holds"]

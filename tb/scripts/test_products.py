@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import pytest
-
-from golden import contract as k
-from golden.core import Drawn, phong_products, products
-from scripts import tools
-from sim.sources import Point, label
-from sim.verilate import reached
+from polyshade.golden import contract as k
+from polyshade.golden.core import Drawn, phong_products, products
+from polyshade.scripts.flow import tools
+from polyshade.sim.sources import Point, label
+from polyshade.sim.verilate import reached
 
 LIGHT = k.PRODUCTS_LIGHT, k.PRODUCTS_REFLECT, k.PRODUCTS_DIVIDE
 

@@ -4,9 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
-
-from scripts import lint
-from sim.sources import ROOT
+from polyshade.scripts.flow import lint
+from polyshade.sim.sources import ROOT
 
 GOOD = """\
 // shade_toy: y = x + 1.
@@ -44,7 +43,7 @@ def toy(tmp_path, monkeypatch) -> Path:
     bench = tmp_path / "tb" / "fixed" / "test_toy.py"
     bench.parent.mkdir(parents=True)
     bench.touch()
-    monkeypatch.setattr("golden.fixed.toy", lambda x: x + 1, raising=False)
+    monkeypatch.setattr("polyshade.golden.fixed.toy", lambda x: x + 1, raising=False)
     for name, value in {
         "ROOT": tmp_path,
         "RTL": tmp_path / "rtl",
@@ -124,7 +123,7 @@ def test_a_module_without_row_is_told(toy: Path) -> None:
 
 def test_a_module_without_twin_is_told(toy: Path, monkeypatch) -> None:
     """A function of the same name, or of the name without its last word; what only carries data needs none."""
-    monkeypatch.delattr("golden.fixed.toy")
+    monkeypatch.delattr("polyshade.golden.fixed.toy")
     assert lint.mirror("shade_toy", toy) == ["golden/fixed.py: no function toy, the golden twin of shade_toy"]
     monkeypatch.setattr(lint, "CARRIERS", {"shade_toy"})
     assert lint.mirror("shade_toy", toy) == []
@@ -159,7 +158,7 @@ def test_file_list_rules(toy: Path, monkeypatch) -> None:
 @pytest.mark.parametrize(("package", "above"), [("golden", "sim|scripts|tb"), ("sim", "scripts|tb"), ("scripts", "tb")])
 def test_imports_go_one_way(package: str, above: str) -> None:
     """tb -> scripts -> sim -> golden: nothing imports what stands above it."""
-    imported = re.compile(rf"^\s*(?:from|import) (?:{above})\b", re.MULTILINE)
+    imported = re.compile(rf"^\s*(?:from|import) (?:polyshade(?:\.| import ))?(?:{above})\b", re.MULTILINE)
     sources = sorted((ROOT / package).rglob("*.py"))
     assert sources
     assert [str(path) for path in sources if imported.search(path.read_text())] == []

@@ -7,18 +7,17 @@ import subprocess
 from pathlib import Path
 
 import pytest
-
-from scripts.tools import check_cocotb
-from sim import tools
-from sim.errors import UserError
-from sim.sources import ROOT
+from polyshade.scripts.flow.tools import check_cocotb
+from polyshade.sim import tools
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import ROOT
 
 PROGRAMS = ("git", "make", "g++", "perl", "python3")
 ALWAYS = ("sh", "dirname", "basename", "uname", "env")
 
 
 def setup(folder: Path, programs: dict[str, str | None], **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run ``scripts/setup.sh`` with nothing in PATH but the programs: a script each, or the real one for None."""
+    """Run ``scripts/flow/setup.sh`` with nothing in PATH but the programs: a script each, or the real one for None."""
     for name, script in programs.items():
         if script is None:
             (folder / name).symlink_to(shutil.which(name))
@@ -26,7 +25,7 @@ def setup(folder: Path, programs: dict[str, str | None], **environment: str) -> 
             (folder / name).write_text(f"#!/bin/sh\n{script}\n")
             (folder / name).chmod(0o755)
     return subprocess.run(
-        ["/bin/sh", ROOT / "scripts" / "setup.sh", folder / "venv"],
+        ["/bin/sh", ROOT / "scripts" / "flow" / "setup.sh", folder / "venv"],
         env={"PATH": str(folder), **environment},
         capture_output=True,
         text=True,

@@ -6,10 +6,9 @@
 import json
 
 import pytest
-
-from scripts import synth, tools
-from sim.errors import UserError
-from sim.verilate import reached
+from polyshade.scripts.flow import synth, tools
+from polyshade.sim.errors import UserError
+from polyshade.sim.verilate import reached
 
 
 @pytest.fixture(autouse=True)

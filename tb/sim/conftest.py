@@ -6,8 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-from sim import model, sources, verilate
+from polyshade.sim import model, sources, verilate
 
 
 @pytest.fixture

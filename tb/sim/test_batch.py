@@ -13,10 +13,9 @@ import distributed
 import numpy as np
 import pytest
 from PIL import Image
-
-from sim import batch, frame
-from sim.errors import UserError
-from sim.scene.camera import Camera
+from polyshade.sim import batch, frame
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.camera import Camera
 
 SETTINGS = frame.Settings(camera=Camera(48, yaw=300))
 SECONDS = ("simulated_pixels_per_second", "wall_seconds")

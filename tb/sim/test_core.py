@@ -6,12 +6,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
-from golden import contract as k
-from golden import core as golden
-from golden.material import Material, planner_registers, registers
-from sim import core
-from sim.scene.raster import Spans
+from polyshade.golden import contract as k
+from polyshade.golden import core as golden
+from polyshade.golden.material import Material, planner_registers, registers
+from polyshade.sim import core
+from polyshade.sim.scene.raster import Spans
 
 ONE = 1 << k.INTENSITY_F
 

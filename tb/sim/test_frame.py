@@ -7,12 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-import sim
-from golden.material import Material
-from sim import core, frame
-from sim.errors import UserError
-from sim.scene.camera import Camera
+from polyshade import sim
+from polyshade.golden.material import Material
+from polyshade.sim import core, frame
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.camera import Camera
 
 # ---- numbers -----------------------------------------------------------------------------------------------------
 

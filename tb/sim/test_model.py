@@ -12,14 +12,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import fixed, poly, registers
+from polyshade.sim import SimulationError, model, verilate
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import ROOT
+from polyshade.sim.verilate import Port
 
-import sim
-from golden import contract as k
-from golden import fixed, poly, registers
-from sim import SimulationError, model, verilate
-from sim.errors import UserError
-from sim.sources import ROOT
-from sim.verilate import Port
 from tb.runner import SEED
 
 RNG = np.random.default_rng(SEED)
@@ -626,7 +626,7 @@ def test_what_fails_to_compile_leaves_nothing(fresh: Path, toy: Callable, monkey
 TWO = """
 import sys
 from pathlib import Path
-from sim import model, verilate
+from polyshade.sim import model, verilate
 
 runs, run = [], verilate._run
 runtime = verilate._runtime(False)

@@ -2,16 +2,16 @@
 
 import numpy as np
 import pytest
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import core as golden
+from polyshade.golden.material import Material, registers
+from polyshade.golden.registers import pack_draw
+from polyshade.sim.core import Lines, compare
+from polyshade.sim.scene.camera import Camera
+from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.raster import Spans, expand, scan_convert
 
-import sim
-from golden import contract as k
-from golden import core as golden
-from golden.material import Material, registers
-from golden.registers import pack_draw
-from sim.core import Lines, compare
-from sim.scene.camera import Camera
-from sim.scene.mesh import load_mesh
-from sim.scene.raster import Spans, expand, scan_convert
 from tb.runner import SEED
 
 LIGHT = (0.3, 0.6, 0.8)

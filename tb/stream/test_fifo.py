@@ -3,8 +3,8 @@
 import random
 
 import cocotb
+from polyshade.golden import contract as k
 
-from golden import contract as k
 from tb.bench import PRESSURE, Bench, Sink, checked, no_path, scramble
 from tb.runner import points, simulate
 

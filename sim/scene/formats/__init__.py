@@ -19,10 +19,9 @@ from urllib.parse import unquote
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
-
-from sim.errors import UserError
-from sim.scene.formats import gltf, obj, off, ply, stl
-from sim.scene.formats.common import Checked, Damage
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.formats import gltf, obj, off, ply, stl
+from polyshade.sim.scene.formats.common import Checked, Damage
 
 logging.getLogger("trimesh").addHandler(logging.NullHandler())  # it would print tracebacks of what it survives
 

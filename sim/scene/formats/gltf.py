@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-from sim.scene.formats.common import Checked, Damage
+from polyshade.sim.scene.formats.common import Checked, Damage
 
 _BYTES = {5121: 1, 5123: 2, 5125: 4, 5126: 4}
 _UNSIGNED, _FLOAT = (5121, 5123, 5125), (5126,)

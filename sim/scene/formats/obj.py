@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from sim.scene.formats.common import Checked, Damage, decode, numbers
+from polyshade.sim.scene.formats.common import Checked, Damage, decode, numbers
 
 _Corner = tuple[int, int]
 """Indices of a point and of a normal, counted from 1; the normal's is 0 when there is none."""

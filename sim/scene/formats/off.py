@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from sim.scene.formats.common import Checked, Damage, decode, numbers
+from polyshade.sim.scene.formats.common import Checked, Damage, decode, numbers
 
 
 def check(data: bytes, path: Path) -> Checked:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
-from sim.scene.formats.common import Checked, Damage, decode, numbers
+from polyshade.sim.scene.formats.common import Checked, Damage, decode, numbers
 
 
 def check(data: bytes, path: Path) -> Checked:

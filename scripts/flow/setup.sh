@@ -1,9 +1,9 @@
 #!/bin/sh
-# Makes the virtual environment: scripts/setup.sh VENV  (PYTHON=... chooses the interpreter).
+# Makes the virtual environment: scripts/flow/setup.sh VENV  (PYTHON=... chooses the interpreter).
 # Everything that the machine itself must bring is checked first and named at once. POSIX sh, because
 # Python may be what is missing.
 set -eu
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 venv=${1:-.venv}
 python=${PYTHON:-python3}
 
@@ -42,5 +42,5 @@ echo 'int main() { if constexpr (sizeof(int) > 1) return 0; }' |
 "$python" -m venv --clear "$venv"
 "$venv/bin/python" -m pip install --quiet --no-deps --only-binary :all: --require-hashes -r requirements.txt
 "$venv/bin/python" -m pip install --quiet --no-deps --no-build-isolation --editable .
-"$venv/bin/python" -m scripts.tools
+"$venv/bin/python" -m polyshade.scripts.flow.tools
 touch "$venv/.stamp"

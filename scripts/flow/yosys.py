@@ -1,4 +1,4 @@
-"""Yosys as a program: ``python -m scripts.yosys SCRIPT``.
+"""Yosys as a program: ``python -m polyshade.scripts.flow.yosys SCRIPT``.
 
 Yosys comes as a Python extension, and a command that fails ends the whole process. So every job is a
 process of its own, with the log on standard output and the cause in its last line.

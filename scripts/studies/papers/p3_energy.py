@@ -10,13 +10,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from numpy.typing import ArrayLike, NDArray
-
-from golden import contract as k
-from golden import light, material
-from golden.reference import light as reference
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check
-from scripts.papers.lobe import VERSINES, C, rtl_lobe
+from polyshade.golden import contract as k
+from polyshade.golden import light, material
+from polyshade.golden.reference import light as reference
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check
+from polyshade.scripts.studies.papers.lobe import VERSINES, C, rtl_lobe
 
 p3 = partial(check, paper="P3")
 EXPONENTS = np.arange(16, 1025)  # n for which P3 gives its scales

@@ -5,7 +5,7 @@ The default point is always one of them. ``REFUSED`` holds points that elaborati
 
 from itertools import product
 
-from sim.sources import Point
+from polyshade.sim.sources import Point
 
 SMALL: Point = {"REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}  # a core with Lambert and Blinn, by polynomials
 FOLDED: Point = {"FOLD": 6, **SMALL}

@@ -3,7 +3,7 @@
     {"<module>": {"<family>": {"lut": 1, "ff": 2, "dsp": 3, "bram": 4, "fmax_mhz": 5.6}}}
 
 Every module of ``rtl/shade.f`` is taken at its default parameters, some at others as well
-(``shade_poly_span[EVALUATOR=1]``), and the yardsticks of ``scripts/yardsticks`` in the same way.
+(``shade_poly_span[EVALUATOR=1]``), and the yardsticks of ``scripts/studies/yardsticks`` in the same way.
 
 How the figures come about:
 
@@ -33,14 +33,13 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
+from polyshade.scripts.flow import tools
+from polyshade.scripts.flow.points import VARIANTS
+from polyshade.scripts.report import save
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import BUILD, Point, label, modules, yardsticks
+from polyshade.sim.verilate import reached
 from tqdm import tqdm
-
-from scripts import tools
-from scripts.points import VARIANTS
-from scripts.report import save
-from sim.errors import UserError
-from sim.sources import BUILD, Point, label, modules, yardsticks
-from sim.verilate import reached
 
 OUT = BUILD / "synth.json"
 WORK = BUILD / "synth"

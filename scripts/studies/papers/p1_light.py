@@ -12,18 +12,17 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
-
-import sim
-from golden import contract as k
-from golden import material
-from golden.reference import light as reference
-from scripts import synth
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check, nmse
-from scripts.papers.lobe import COSINES, C, rtl_lobe
-from scripts.papers.view import view
-from sim import frame
-from sim.scene.raster import expand
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import material
+from polyshade.golden.reference import light as reference
+from polyshade.scripts.flow import synth
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check, nmse
+from polyshade.scripts.studies.papers.lobe import COSINES, C, rtl_lobe
+from polyshade.scripts.studies.papers.view import view
+from polyshade.sim import frame
+from polyshade.sim.scene.raster import expand
 
 p1 = partial(check, paper="P1")
 ONE = 1 << k.INTENSITY_F

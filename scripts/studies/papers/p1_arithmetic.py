@@ -8,14 +8,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-
-import sim
-from golden import contract as k
-from golden.reference import poly as reference
-from scripts import waves
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check
-from sim import verilate
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden.reference import poly as reference
+from polyshade.scripts.drawings import waves
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check
+from polyshade.sim import verilate
 
 p1 = partial(check, paper="P1")
 ONE = 1 << k.INTENSITY_F

@@ -12,12 +12,20 @@ from __future__ import annotations
 from dataclasses import asdict
 from pathlib import Path
 
+from polyshade.scripts.report import save
+from polyshade.scripts.studies.papers import (
+    p1_arithmetic,
+    p1_face,
+    p1_light,
+    p1_line,
+    p2_criterion,
+    p3_energy,
+    p4_face,
+    p4_vectors,
+)
+from polyshade.scripts.studies.papers.claims import Claim
+from polyshade.sim.sources import BUILD
 from tqdm import tqdm
-
-from scripts.papers import p1_arithmetic, p1_face, p1_light, p1_line, p2_criterion, p3_energy, p4_face, p4_vectors
-from scripts.papers.claims import Claim
-from scripts.report import save
-from sim.sources import BUILD
 
 PARTS = (p1_light, p1_arithmetic, p1_line, p1_face, p2_criterion, p3_energy, p4_vectors, p4_face)
 STEPS = [step for part in PARTS for step in part.STEPS]

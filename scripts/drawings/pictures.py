@@ -1,4 +1,4 @@
-"""The pictures that the READMEs show, made again from what the RTL does: ``python -m scripts.pictures``.
+"""The pictures that the READMEs show, made again from what the RTL does: ``make pictures``.
 
 docs/head.png              the default head, every pixel out of the RTL
 docs/forms.png             P1's form and the refined one, and their errors
@@ -19,19 +19,19 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from polyshade.golden import contract as k
+from polyshade.golden import poly
+from polyshade.golden.material import FORMS, Material, planner_registers, registers
+from polyshade.golden.normal import pack_lines
+from polyshade.golden.registers import pack
+from polyshade.scripts.drawings import svg, waves
+from polyshade.scripts.studies import gallery
+from polyshade.scripts.studies.papers import p1_arithmetic, p1_face
+from polyshade.sim import frame
+from polyshade.sim.core import WHOLE
+from polyshade.sim.scene.camera import Camera
+from polyshade.sim.sources import ROOT
 from tqdm import tqdm
-
-from golden import contract as k
-from golden import poly
-from golden.material import FORMS, Material, planner_registers, registers
-from golden.normal import pack_lines
-from golden.registers import pack
-from scripts import gallery, svg, waves
-from scripts.papers import p1_arithmetic, p1_face
-from sim import frame
-from sim.core import WHOLE
-from sim.scene.camera import Camera
-from sim.sources import ROOT
 
 DOCS = ROOT / "docs"
 ONE = 1 << k.INTENSITY_F

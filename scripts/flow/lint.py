@@ -1,11 +1,11 @@
 """Everything that can be wrong with the sources before anything is simulated: ``make lint``.
 
 * the file list names every file under ``rtl/`` once, the package first;
-* Verilator ``-Wall`` elaborates every module as its own top at every point of ``scripts.points``, without a
+* Verilator ``-Wall`` elaborates every module as its own top at every point of ``scripts.flow.points``, without a
   warning, and refuses the points that are out of range in words;
 * Yosys reads every module at every point with its own reader and with slang, finds no latch, no loop, no
   undriven net and no multiplier or divider outside ``shade_mul``, and synthesizes it as far as word-level
-  cells (all the way to the cells of a family: ``scripts.synth``);
+  cells (all the way to the cells of a family: ``scripts.flow.synth``);
 * every module is named like its file, opens with a header that states formula, latency and an example, has a row
   in ``rtl/README.md``, a golden twin and a test bench;
 * the Python code passes ruff's rules and format.
@@ -23,14 +23,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from polyshade.scripts.flow import tools
+from polyshade.scripts.flow.points import REFUSED, points
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources
+from polyshade.sim.tools import environment
+from polyshade.sim.verilate import reached
 from tqdm import tqdm
-
-from scripts import tools
-from scripts.points import REFUSED, points
-from sim.errors import UserError
-from sim.sources import BUILD, ROOT, Point, label, modules, sources
-from sim.tools import environment
-from sim.verilate import reached
 
 RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
@@ -164,7 +163,7 @@ def _twin(path: Path) -> list[str]:
     """A fault unless ``rtl/poly/shade_horner_pipe.sv`` has ``golden.poly.horner_pipe``, or ``horner`` for all kinds."""
     name, folder = path.stem.removeprefix("shade_"), path.parent.name
     try:
-        model = importlib.import_module(f"golden.{folder}")
+        model = importlib.import_module(f"polyshade.golden.{folder}")
     except ImportError:
         return [f"golden/{folder}.py: missing, the golden model of rtl/{folder}"]
     if hasattr(model, name) or hasattr(model, name.rpartition("_")[0] or name):

@@ -7,17 +7,16 @@ from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-import sim
-from golden import contract as k
-from golden import plan, poly
-from golden.material import Material
-from golden.reference import light as reference
-from sim import frame
-from sim.core import quantize
-from sim.scene.camera import Camera
-from sim.scene.mesh import load_mesh
-from sim.scene.raster import Spans, resolve, scan_convert
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import plan, poly
+from polyshade.golden.material import Material
+from polyshade.golden.reference import light as reference
+from polyshade.sim import frame
+from polyshade.sim.core import quantize
+from polyshade.sim.scene.camera import Camera
+from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.raster import Spans, resolve, scan_convert
 
 MODEL = "blinn"
 

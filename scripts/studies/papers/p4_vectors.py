@@ -8,14 +8,13 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-
-from golden import contract as k
-from golden import normal
-from golden.reference import light
-from golden.reference import normal as reference
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check, nmse
-from sim.core import quantize
+from polyshade.golden import contract as k
+from polyshade.golden import normal
+from polyshade.golden.reference import light
+from polyshade.golden.reference import normal as reference
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check, nmse
+from polyshade.sim.core import quantize
 
 p2 = partial(check, paper="P2")
 p4 = partial(check, paper="P4")

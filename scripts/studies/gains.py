@@ -10,17 +10,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-
-import sim
-from golden import contract as k
-from golden import core as golden
-from golden.material import Material, planner_registers, registers
-from golden.registers import pack, pack_draw
-from sim.core import WHOLE, Lines
-from sim.errors import UserError
-from sim.scene.camera import Camera
-from sim.scene.mesh import load_mesh
-from sim.scene.raster import scan_convert
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import core as golden
+from polyshade.golden.material import Material, planner_registers, registers
+from polyshade.golden.registers import pack, pack_draw
+from polyshade.sim.core import WHOLE, Lines
+from polyshade.sim.errors import UserError
+from polyshade.sim.scene.camera import Camera
+from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.raster import scan_convert
 
 PLAIN = {"REFLECT": 0, "DIVIDE": 0}
 CORE = PLAIN | {"PATH_NORMALS": 0}

@@ -1,4 +1,4 @@
-"""Write what the RTL takes from the golden model: ``python -m scripts.generate`` (``--check``: compare).
+"""Write what the RTL takes from the golden model: ``make generate`` (``--check``: compare).
 
 ``rtl/shade_pkg.sv`` from ``golden/contract.py`` and ``golden/registers.py``, the table
 ``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``, ``docs/registers.md`` from ``golden/registers.py``,
@@ -13,14 +13,14 @@ import sys
 from itertools import accumulate
 from pathlib import Path
 
-from golden import contract as k
-from golden import fixed, packets, registers
+from polyshade.golden import contract as k
+from polyshade.golden import fixed, packets, registers
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 HEADER = """\
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
-// Generated from golden/contract.py and golden/registers.py by `python -m scripts.generate`: change them there.
+// Generated from golden/contract.py and golden/registers.py by `make generate`: change them there.
 // W: width in bits, F: fraction bits among them. S1.16: sign, 1 integer bit, 16 fraction bits.
 // Latencies are in clocks from an input taken to the output that it causes.
 
@@ -136,7 +136,7 @@ def _each(settings: list[registers.Field], statement: str) -> list[str]:
 ROM_HEADER = """\
 // shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
 //
-// Generated from golden.fixed.rsqrt_rom by `python -m scripts.generate`: change it there.
+// Generated from polyshade.golden.fixed.rsqrt_rom by `make generate`: change it there.
 // row_o = {c0, c1, c2}: c0 U0.22, with the half ulp of the result's rounding; c1 S0.18, negative; c2 U0.12, 11 bits;
 // rows below segment 32 are 0. Block RAM or LUTs, as the tool sees fit (6,528 bits). Latency 1 clock, one row a clock.
 // Example: i = 32 -> c0 = 1/sqrt(1 + 1/64) + 2^-21.
@@ -170,7 +170,7 @@ def rsqrt_rom() -> str:
 MAP_HEADER = """\
 # Registers
 
-Generated from `golden/registers.py` by `python -m scripts.generate`: change them there. Words of 32 bits on AXI4-Lite,
+Generated from `golden/registers.py` by `make generate`: change them there. Words of 32 bits on AXI4-Lite,
 by byte offset; unnamed bits read 0. `S1.16`: signed, one integer bit, 16 fraction bits; `U`: unsigned. Access `ro`:
 writing changes nothing.
 
@@ -178,11 +178,11 @@ An offset without a register is answered `SLVERR` and reads 0. So is a write to 
 nothing changes: a draw call cannot be torn. The one exception is `CONTROL` with `clear` set and its other bits as they
 are read.
 
-Values come from physical parameters by `golden.material`, words by `golden.registers.pack`:
+Values come from physical parameters by `polyshade.golden.material`, words by `polyshade.golden.registers.pack`:
 
 ```python
-from golden.material import Material, colour_registers, planner_registers, registers
-from golden.registers import pack
+from polyshade.golden.material import Material, colour_registers, planner_registers, registers
+from polyshade.golden.registers import pack
 
 surface = Material("cook-torrance", roughness=0.3)
 words = pack(registers(surface, light=(0.3, 0.6, 0.8)) | planner_registers(surface) | colour_registers(surface))
@@ -214,7 +214,7 @@ def register_map() -> str:
 INTERFACE_HEADER = """\
 # Packets, codes, latencies
 
-Generated from `golden/packets.py` and `golden/contract.py` by `python -m scripts.generate`: change them there. The same
+Generated from `golden/packets.py` and `golden/contract.py` by `make generate`: change them there. The same
 constants stand in `rtl/shade_pkg.sv`. Every packet is one beat of an AXI4-Stream. `S1.16`: signed, one integer bit, 16
 fraction bits; `U`: unsigned. Settings and counters: [registers](registers.md).
 """
@@ -254,7 +254,7 @@ def interface() -> str:
         ]
     lines += [
         "", "## Timing", "",
-        "Streams of `shade_core`, from a waveform (`python -m scripts.pictures`).", "",
+        "Streams of `shade_core`, from a waveform (`make pictures`).", "",
         "![Three spans through the core](timing_core.svg)", "",
         "## Latencies", "",
         "In clocks from an input taken to the output that it causes. The module is named like the constant.", "",
@@ -286,7 +286,7 @@ def main() -> int:
         if not check:
             path.write_text(text())
         elif not path.exists() or path.read_text() != text():
-            print(f"{name} is out of date: run `python -m scripts.generate`", file=sys.stderr)
+            print(f"{name} is out of date: run `make generate`", file=sys.stderr)
             return 1
     return 0
 

@@ -9,16 +9,15 @@ from pathlib import Path
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
-
-from golden import contract as k
-from golden import normal, plan
-from golden.reference import light
-from golden.reference import normal as reference
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check, nmse
-from scripts.papers.view import view
-from sim.core import quantize
-from sim.scene.mesh import Mesh, load_mesh
+from polyshade.golden import contract as k
+from polyshade.golden import normal, plan
+from polyshade.golden.reference import light
+from polyshade.golden.reference import normal as reference
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check, nmse
+from polyshade.scripts.studies.papers.view import view
+from polyshade.sim.core import quantize
+from polyshade.sim.scene.mesh import Mesh, load_mesh
 
 p2 = partial(check, paper="P2")
 ONE = 1 << k.INTENSITY_F

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from PIL import Image, ImageDraw, ImageFont
-
-from golden.material import MODELS, Material
-from golden.reference.light import ROWS
-from sim.batch import Shots, shoot_all
-from sim.frame import Settings
-from sim.scene.camera import Camera
+from polyshade.golden.material import MODELS, Material
+from polyshade.golden.reference.light import ROWS
+from polyshade.sim.batch import Shots, shoot_all
+from polyshade.sim.frame import Settings
+from polyshade.sim.scene.camera import Camera
 
 COLUMNS = 6
 EXPOSURE = 0.18  # with it the scale of no row for n = 32 comes to more than 1

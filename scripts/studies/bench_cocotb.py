@@ -1,4 +1,4 @@
-"""The cocotb side of ``scripts/bench.py``: spans into shade_poly_span, pixels out, as plainly as cocotb can."""
+"""The cocotb side of ``scripts/studies/bench.py``: spans into shade_poly_span, pixels out, as plainly as cocotb can."""
 
 import json
 import os

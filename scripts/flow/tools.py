@@ -1,6 +1,6 @@
 """Run Yosys and nextpnr.
 
-``python -m scripts.tools`` prints what is found; ``python -m scripts.tools cocotb`` checks what only the
+``python -m polyshade.scripts.flow.tools`` prints what is found; with the argument ``cocotb`` it checks what only the
 tests need.
 """
 
@@ -9,9 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from sim.errors import UserError
-from sim.sources import ROOT
-from sim.tools import environment, package, versions
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import ROOT
+from polyshade.sim.tools import environment, package, versions
 
 
 def yosys(script: str, directory: Path) -> str:
@@ -21,7 +21,7 @@ def yosys(script: str, directory: Path) -> str:
     """
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "yosys.ys").write_text(script)
-    command = [sys.executable, "-m", "scripts.yosys", "yosys.ys"]
+    command = [sys.executable, "-m", "polyshade.scripts.flow.yosys", "yosys.ys"]
     return _run("yosys", command, directory, {**os.environ, "PYTHONPATH": str(ROOT)})
 
 

@@ -13,13 +13,12 @@ from __future__ import annotations
 
 import sys
 
+from polyshade.golden import contract
+from polyshade.scripts.report import save
+from polyshade.sim.errors import UserError
+from polyshade.sim.sources import BUILD
+from polyshade.sim.units import FORMS, Case, Result, cases, check_pixel_normals, check_poly_span
 from tqdm import tqdm
-
-from golden import contract
-from scripts.report import save
-from sim.errors import UserError
-from sim.sources import BUILD
-from sim.units import FORMS, Case, Result, cases, check_pixel_normals, check_poly_span
 
 OUT = BUILD / "units.json"
 ALLOWED = (1, 1_000_000_000)

@@ -9,17 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-
-import sim
-from golden import contract as k
-from golden import normal, plan, poly
-from golden.reference import light
-from golden.reference.normal import METHODS, length_error
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check
-from scripts.papers.view import View, view
-from sim import frame
-from sim.core import Lines, quantize
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import normal, plan, poly
+from polyshade.golden.reference import light
+from polyshade.golden.reference.normal import METHODS, length_error
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check
+from polyshade.scripts.studies.papers.view import View, view
+from polyshade.sim import frame
+from polyshade.sim.core import Lines, quantize
 
 p4 = partial(check, paper="P4")
 POWERS = (32, 128, 512)

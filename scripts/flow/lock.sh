@@ -1,8 +1,8 @@
 #!/bin/sh
-# Writes requirements.txt, the pinned and hashed closure of requirements.in: scripts/lock.sh
+# Writes requirements.txt, the pinned and hashed closure of requirements.in: scripts/flow/lock.sh
 # The resolver's settings stand in pyproject.toml, [tool.uv]. It lives in a scratch environment.
 set -eu
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-
-import sim
-from golden import contract as k
-from golden import material
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import material
 
 COSINES = np.arange((1 << k.INTENSITY_F) + 1)
 C = COSINES / (1 << k.INTENSITY_F)

@@ -4,7 +4,7 @@
 
 ``ratio`` is value / value of ``versus``. Speeds are medians of several runs in one go, all of the same frame: the
 default head at 1024 x 1024, Blinn-Phong, n = 32. cocotb gets the first spans of it only, without gaps, stalls or
-checks: the least that a bench in Python does. The core's gains over ``shade_phong``: see ``scripts.gains``.
+checks: the least that a bench in Python does. The core's gains over ``shade_phong``: see ``scripts.studies.gains``.
 """
 
 from __future__ import annotations
@@ -18,20 +18,19 @@ from unittest import mock
 
 import numpy as np
 from cocotb_tools.runner import get_runner
+from polyshade import sim
+from polyshade.golden import contract, plan, poly
+from polyshade.golden.material import planner_registers, registers
+from polyshade.golden.registers import pack
+from polyshade.scripts.report import save
+from polyshade.scripts.studies import gains
+from polyshade.scripts.studies.papers.view import view
+from polyshade.sim import frame
+from polyshade.sim.core import WHOLE, Lines
+from polyshade.sim.sources import BUILD
+from polyshade.sim.tools import environment
+from polyshade.sim.verilate import reached
 from tqdm import tqdm
-
-import sim
-from golden import contract, plan, poly
-from golden.material import planner_registers, registers
-from golden.registers import pack
-from scripts import gains
-from scripts.papers.view import view
-from scripts.report import save
-from sim import frame
-from sim.core import WHOLE, Lines
-from sim.sources import BUILD
-from sim.tools import environment
-from sim.verilate import reached
 
 OUT = BUILD / "bench.json"
 WORK = BUILD / "bench"
@@ -62,7 +61,8 @@ def cocotb_seconds(beats: np.ndarray, pixels: int) -> float:
             log_file=WORK / "build.log",
         )  # fmt: skip
         runner.test(
-            test_module="scripts.bench_cocotb", hdl_toplevel="shade_poly_span", hdl_toplevel_lang="verilog",
+            test_module="polyshade.scripts.studies.bench_cocotb", hdl_toplevel="shade_poly_span",
+            hdl_toplevel_lang="verilog",
             build_dir=WORK, test_dir=WORK, log_file=WORK / "run.log", results_xml=str(WORK / "results.xml"),
         )  # fmt: skip
     return json.loads((WORK / "cocotb.json").read_text())["seconds"]

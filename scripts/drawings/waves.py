@@ -6,16 +6,15 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
-
-import sim
-from sim.sources import BUILD
+from polyshade import sim
+from polyshade.sim.sources import BUILD
 
 RESET_CLOCKS = 3  # that sim spends before clock 0
 SAMPLES_PER_CLOCK = 2  # before and behind the rising edge
 
 
 def record(module: str, names: Iterable[str], *, signed: Iterable[str] = (), **run) -> tuple[sim.Run, dict]:
-    """Run a module at its default parameters as ``sim.load(module).run(**run)`` and record signals of it.
+    """Run a module at its default parameters as ``polyshade.sim.load(module).run(**run)`` and record signals of it.
 
     ``names`` as seen from the module, ``"u_walk.busy_q"``. The run and ``{name: (clocks,)}``: value i is what the
     rising edge at the end of clock i sees, clocks counted as in ``run.taken``; Python integers where a signal is wide.

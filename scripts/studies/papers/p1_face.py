@@ -11,15 +11,14 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
-
-from golden import contract as k
-from golden import plan, poly
-from golden.material import Material
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check, nmse
-from scripts.papers.view import View, view
-from sim import frame
-from sim.scene.camera import Camera
+from polyshade.golden import contract as k
+from polyshade.golden import plan, poly
+from polyshade.golden.material import Material
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check, nmse
+from polyshade.scripts.studies.papers.view import View, view
+from polyshade.sim import frame
+from polyshade.sim.scene.camera import Camera
 
 p1 = partial(check, paper="P1")
 POWERS = (8, 16, 32, 64, 128, 256, 512)

@@ -7,14 +7,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-
-import sim
-from golden import contract as k
-from golden import plan, poly
-from golden.reference import poly as reference
-from golden.reference.light import blinn, diffuse, unit
-from scripts.papers import figures
-from scripts.papers.claims import Claim, check, nmse
+from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden import plan, poly
+from polyshade.golden.reference import poly as reference
+from polyshade.golden.reference.light import blinn, diffuse, unit
+from polyshade.scripts.studies.papers import figures
+from polyshade.scripts.studies.papers.claims import Claim, check, nmse
 
 p1 = partial(check, paper="P1")
 ONE = 1 << k.INTENSITY_F

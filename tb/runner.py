@@ -29,6 +29,7 @@ from polyshade.sim.verilate import reached
 SEED = int(os.environ.get("SEED", "1"))
 WAVES = os.environ.get("WAVES", "0") not in ("", "0")
 TESTS = BUILD / "test"
+HANGS = 600  # seconds after which a process is given up: ten times what the slowest needs, never a measure of speed
 
 TIMESCALE = ("1ns", "1ps")
 # Registers and variables without a value start with random bits: a missing reset shows.

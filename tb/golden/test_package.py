@@ -19,6 +19,8 @@ from polyshade.golden import registers
 from polyshade.scripts.flow import generate
 from polyshade.sim.sources import ROOT
 
+from tb.runner import HANGS
+
 MODULES = ["polyshade.golden", *(m.name for m in pkgutil.walk_packages(golden.__path__, "polyshade.golden."))]
 
 
@@ -67,7 +69,7 @@ def test_importable_alone(tmp_path: Path) -> None:
     names = [name.replace("polyshade", "mine") for name in MODULES]
     done = subprocess.run(
         [sys.executable, "-c", ALONE, str(tmp_path), *names], cwd=tmp_path, env={"PYTHONDONTWRITEBYTECODE": "1"},
-        capture_output=True, text=True, timeout=60,
+        capture_output=True, text=True, timeout=HANGS,
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines() == ["mine numpy", "[[0, 0], [16384, 16384], [32768, 32768]]"]
@@ -92,7 +94,7 @@ def test_the_package_of_the_rtl_is_up_to_date() -> None:
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=HANGS,
     )
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 

@@ -34,6 +34,7 @@ from polyshade.sim.errors import LONGEST
 from polyshade.sim.sources import ROOT
 from polyshade.sim.units import Case, cases
 
+from tb.runner import HANGS
 from tb.scene import bad_meshes
 
 PICTURES = ["image.png", "reference.png", "difference.png"]
@@ -640,7 +641,7 @@ def test_interrupted(polyshade, place, earlier, monkeypatch) -> None:
     assert listing(place) == earlier
 
 
-@pytest.mark.timeout(60, method="thread")  # a run that does not end cannot be interrupted
+@pytest.mark.timeout(HANGS, method="thread")  # a run that does not end cannot be interrupted
 def test_a_module_that_stops(polyshade, place, earlier, monkeypatch) -> None:
     """A frame that never ends is told, with the line to run it again; here the consumer never takes a pixel."""
     run = model.Model.run
@@ -766,7 +767,7 @@ def process(*arguments: str | bytes, **environment: str) -> subprocess.Completed
     """The command line in a process of its own."""
     return subprocess.run(
         [sys.executable, "-m", "polyshade.scripts.cli", *arguments], cwd=ROOT, env={**os.environ, **environment},
-        capture_output=True, text=True, errors="surrogateescape", timeout=300,  # the core may have to be compiled
+        capture_output=True, text=True, errors="surrogateescape", timeout=HANGS,
     )  # fmt: skip
 
 
@@ -804,7 +805,7 @@ def test_process_without_a_simulator(tmp_path: Path) -> None:
 def test_process_interrupted(tmp_path: Path) -> None:
     """Control-C in the middle of a frame, held up by a simulator that does not answer."""
     slow = tmp_path / "verilator"
-    slow.write_text(f"#!/bin/sh\ntouch '{tmp_path}/asked'\nexec sleep 60\n")
+    slow.write_text(f"#!/bin/sh\ntouch '{tmp_path}/asked'\nexec sleep {HANGS}\n")
     slow.chmod(0o755)
     folder = tmp_path / "out"
     folder.mkdir()
@@ -813,12 +814,14 @@ def test_process_interrupted(tmp_path: Path) -> None:
     with subprocess.Popen(
         command, cwd=ROOT, env={**os.environ, "VERILATOR": str(slow)}, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        # Whoever starts the tests may ignore the signal, as a shell does for a job in the background.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as running:  # fmt: skip
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + HANGS
         while not (tmp_path / "asked").exists() and time.monotonic() < deadline:
             time.sleep(0.02)
         running.send_signal(signal.SIGINT)
-        out, err = running.communicate(timeout=60)
+        out, err = running.communicate(timeout=HANGS)
     assert (running.returncode, out, err.strip()) == (130, "", "polyshade: interrupted")
     assert listing(folder) == {"image.png": b"old"}
 

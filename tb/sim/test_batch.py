@@ -16,6 +16,9 @@ from PIL import Image
 from polyshade.sim import batch, frame
 from polyshade.sim.errors import UserError
 from polyshade.sim.scene.camera import Camera
+from polyshade.sim.scene.mesh import Mesh
+
+from tb.runner import HANGS
 
 SETTINGS = frame.Settings(camera=Camera(48, yaw=300))
 SECONDS = ("simulated_pixels_per_second", "wall_seconds")
@@ -65,25 +68,19 @@ def test_on_this_machine(tmp_path: Path) -> None:
             assert np.array_equal(image.convert("RGB"), picture)
 
 
-def test_a_worker_that_dies(cluster: distributed.LocalCluster) -> None:
+def test_a_worker_that_dies(cluster: distributed.LocalCluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its frame is made again."""
-    frames, killed = batch.turntable(SETTINGS, 8), []
+    frames, died, shoot = batch.turntable(SETTINGS, 4), tmp_path / "died", batch.shoot
 
-    def kill() -> None:
-        with distributed.Client(cluster.scheduler_address, set_as_default=False) as client:
-            pids = client.run(os.getpid)
-            while not killed:
-                for worker, tasks in client.processing().items():
-                    if tasks and not killed:
-                        os.kill(pids[worker], signal.SIGKILL)
-                        killed.append(worker)
-                time.sleep(0.01)
+    def once(settings: frame.Settings, mesh: Mesh) -> batch.Shot:
+        if settings == frames[1] and not died.exists():
+            died.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+        return shoot(settings, mesh)
 
-    killer = threading.Thread(target=kill)
-    killer.start()
+    monkeypatch.setattr(batch, "shoot", once)
     shots = batch.shoot_all(frames, cluster.scheduler_address)
-    killer.join()
-    assert len(killed) == 1
+    assert died.exists()
     equal(shots, frames)
 
 
@@ -104,10 +101,24 @@ def test_no_workers(monkeypatch: pytest.MonkeyPatch) -> None:
         batch.shoot_all([SETTINGS], empty.scheduler_address)
 
 
-def test_a_scheduler_that_goes_away(cluster: distributed.LocalCluster) -> None:
+def test_a_scheduler_that_goes_away(
+    cluster: distributed.LocalCluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """In the middle of the work."""
-    stop = threading.Timer(1.5, cluster.close)
+    begun = tmp_path / "begun"
+
+    def hold(settings: frame.Settings, mesh: Mesh) -> None:
+        begun.touch()
+        time.sleep(HANGS)
+
+    def close() -> None:
+        while not begun.exists():
+            time.sleep(0.02)
+        cluster.close()
+
+    monkeypatch.setattr(batch, "shoot", hold)
+    stop = threading.Thread(target=close, daemon=True)
     stop.start()
     with pytest.raises(UserError, match="the scheduler went away"):
-        batch.shoot_all(batch.turntable(SETTINGS, 1000), cluster.scheduler_address)
+        batch.shoot_all(batch.turntable(SETTINGS, 4), cluster.scheduler_address)
     stop.join()

@@ -20,7 +20,7 @@ from polyshade.sim.errors import UserError
 from polyshade.sim.sources import ROOT
 from polyshade.sim.verilate import Port
 
-from tb.runner import SEED
+from tb.runner import HANGS, SEED
 
 RNG = np.random.default_rng(SEED)
 
@@ -510,7 +510,7 @@ def test_results_can_be_copied(third: sim.Model, duplicate: Callable) -> None:
 # ---- modules that stop -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.timeout(60, method="thread")  # a run that does not end cannot be interrupted
+@pytest.mark.timeout(HANGS, method="thread")  # a run that does not end cannot be interrupted
 def test_a_consumer_that_never_takes(span: sim.Model) -> None:
     """The run ends, though the module offers a pixel all the time."""
     beats, _ = spans()
@@ -643,7 +643,7 @@ def test_two_processes_at_once(tmp_path: Path) -> None:
     sim.load("shade_third", WIDTH=18)  # Verilator's own part is compiled
     command = [sys.executable, "-c", TWO, str(tmp_path)]
     both = [subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) for _ in range(2)]
-    told = sorted(process.communicate(timeout=120)[0].strip() for process in both)
+    told = sorted(process.communicate(timeout=HANGS)[0].strip() for process in both)
     values = fixed.third(np.arange(-16, 16)).tolist()
     assert told == [f"{count} {values}" for count in (0, 3)]
     assert len([path for path in tmp_path.iterdir() if path.is_dir()]) == 1

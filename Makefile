@@ -8,7 +8,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-one lint format generate bench units papers synth pictures lock clean distclean
+.PHONY: all help setup test test-one lint format generate bench units papers synth pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -55,6 +55,9 @@ synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.
 
 pictures: $(READY) ## Make the pictures of the READMEs again, in docs
 	$(BIN)/python -m polyshade.scripts.drawings.pictures
+
+tables: $(READY) ## Write the tables of the documents from the reports in build
+	$(BIN)/python -m polyshade.scripts.drawings.tables
 
 lock: ## Write requirements.txt from requirements.in
 	scripts/flow/lock.sh

@@ -18,7 +18,7 @@
 // FOLD = 6 then shares multipliers, see shade_lane.
 // No combinational path from an input to an output port. One pixel a clock and lane where light keeps up: at most one
 // node a clock and lane. Latency of a first pixel: LATENCY_CORE, COLOUR = 1: LATENCY_PAINT more. Source: P1 to P4.
-// Example: see the README, "In your design".
+// Example: after reset, normal (0, 0, 1), increment 0, 5 pixels -> five pixels of full diffuse light.
 module shade_core #(
   parameter int LANES        = 1,
   parameter int EVALUATOR    = shade_pkg::EVALUATOR_FDIFF,

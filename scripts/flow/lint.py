@@ -8,6 +8,8 @@
   cells (all the way to the cells of a family: ``scripts.flow.synth``);
 * every module is named like its file, opens with a header that states formula, latency and an example, has a row
   in ``rtl/README.md``, a golden twin and a test bench;
+* what documents, headers and docstrings mention exists (``scripts.flow.documents``); tables are those that
+  ``docs/figures.json`` gives (``scripts.drawings.tables``);
 * the Python code passes ruff's rules and format.
 """
 
@@ -23,7 +25,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from polyshade.scripts.flow import tools
+from polyshade.scripts.drawings import tables
+from polyshade.scripts.flow import documents, tools
 from polyshade.scripts.flow.points import REFUSED, points
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources
@@ -50,6 +53,8 @@ def items() -> Iterator[Item]:
     yield Item("file list", file_list)
     yield Item("ruff check", partial(_ruff, "check", "--quiet", "--output-format=concise"))
     yield Item("ruff format", partial(_ruff, "format", "--check", "--quiet", "--output-format=concise"))
+    yield Item("documents", documents.check)
+    yield Item("tables", tables.check)
     for module, path in modules().items():
         yield Item(f"mirror {module}", partial(mirror, module, path))
     for module in modules():

@@ -1,14 +1,18 @@
 """The packets of the streams as data: the one source for ``docs/interface.md``; positions are those of the contract.
 
-One packet is one beat of an AXI4-Stream. ``golden.normal.pack_lines`` and ``golden.poly.pack_spans`` make them; a test
-holds them to these tables.
+One packet is one beat of an AXI4-Stream. :func:`pack` makes beats from a table; ``golden.normal.pack_lines`` and
+``golden.poly.pack_spans`` are older ones, which a test holds to these tables.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from . import contract as k
+from .fixed import integers
 from .registers import Field
 
 
@@ -61,6 +65,34 @@ SPAN = Packet(
         Field("tag", k.TAG_W, "given back with every pixel", lsb=k.SPAN_TAG_LSB),
     ),
 )  # fmt: skip
+TRIANGLE = Packet(
+    "s_axis_triangle of shade_direct and of the patches, m_axis_triangle of shade_raster",
+    k.TRIANGLE_DATA_W,
+    "a triangle: its interpolated normal is a linear function of column and line; its runs are a stream of their own",
+    (
+        *_vector("normal", 0, "interpolated normal at the reference pixel"),
+        *_vector("dcolumn", 3 * k.STEP_W, "its increment per column (P4)"),
+        *_vector("dline", 6 * k.STEP_W, "its increment per line"),
+        Field("column", k.PLACE_W, "of the reference pixel: the first of the box", lsb=k.TRIANGLE_COLUMN_LSB),
+        Field("line", k.PLACE_W, "of the reference pixel: the first of the box", lsb=k.TRIANGLE_LINE_LSB),
+        Field("columns", k.COUNT_W, "of the box that all runs lie in, 1 to 4096", lsb=k.TRIANGLE_COLUMNS_LSB),
+        Field("lines", k.COUNT_W, "of the box that all runs lie in, 1 to 4096", lsb=k.TRIANGLE_LINES_LSB),
+        Field("tag", k.TAG_W, "given back with every pixel", lsb=k.TRIANGLE_TAG_LSB),
+        Field("flat", 1, "the triangle passed P2's criterion: no normalizing in diffuse light", lsb=k.TRIANGLE_FLAT),
+    ),
+)
+"""Increments of a sliver may not fit; it is then sent as one triangle for each run, without ``dline``."""
+RUN = Packet(
+    "s_axis_run of shade_direct and of the patches, m_axis_run of shade_raster",
+    k.RUN_DATA_W,
+    "a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle",
+    (
+        Field("column", k.PLACE_W, "its first pixel", lsb=k.RUN_COLUMN_LSB),
+        Field("line", k.PLACE_W, "its raster line", lsb=k.RUN_LINE_LSB),
+        Field("count", k.COUNT_W, "pixels; 0 is allowed in a triangle's last run", lsb=k.RUN_COUNT_LSB),
+        Field("last", 1, "the triangle's last run", lsb=k.RUN_LAST),
+    ),
+)
 PIXEL = Packet(
     "m_axis_pixel of shade_core (COLOUR = 0 or CONTROL.colour = 0), shade_phong, shade_poly_span",
     k.PIXEL_DATA_W,
@@ -82,4 +114,42 @@ NORMAL = Packet(
     "a unit normal; tuser is the line's tag, tlast its last normal",
     tuple(Field(axis, k.INTENSITY_W, "", "S1.16", k.INTENSITY_W * i) for i, axis in enumerate("xyz")),
 )
-PACKETS = {"LINE": LINE, "SPAN": SPAN, "PIXEL": PIXEL, "COLOURED": COLOURED, "NORMAL": NORMAL}
+PACKETS = {
+    "LINE": LINE,
+    "SPAN": SPAN,
+    "TRIANGLE": TRIANGLE,
+    "RUN": RUN,
+    "PIXEL": PIXEL,
+    "COLOURED": COLOURED,
+    "NORMAL": NORMAL,
+}
+
+
+def pack(packet: Packet, **values: ArrayLike) -> NDArray[np.uint32]:
+    """Beats (S, words) of a packet from its fields by name; those not named are 0, bits beyond a field are cut.
+
+    >>> pack(RUN, column=[5], line=[6], count=[7], last=[1]).tolist()
+    [[393221, 65543]]
+    """
+    unknown = values.keys() - {field.name for field in packet.fields}
+    if unknown:
+        raise ValueError(f"{min(unknown)}: no field of this packet")
+    columns = dict(zip(values, integers(*values.values()), strict=True))
+    rows = max((column.size for column in columns.values()), default=1)
+    words = np.zeros((rows, packet.width // 32), np.uint32)
+    for field in packet.fields:
+        value = columns.get(field.name, np.zeros(rows, np.int64)) & (1 << field.width) - 1
+        words[:, field.lsb // 32] |= (value << field.lsb % 32).astype(np.uint32)  # no field crosses a word
+    return words
+
+
+def members(packet: Packet) -> tuple[Field, ...]:
+    """The fields as a packed structure has them, the one at the top first; between them what is not used."""
+    found: list[Field] = []
+    end = 0
+    for field in (*packet.fields, Field("", 0, "", lsb=packet.width)):
+        if field.lsb > end:
+            found.append(Field(f"unused_{end}", field.lsb - end, "", lsb=end))
+        found += [field] if field.width else []
+        end = field.lsb + field.width
+    return tuple(found[::-1])

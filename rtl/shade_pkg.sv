@@ -123,6 +123,7 @@ package shade_pkg;
   localparam int NODE_COUNT = 4;
   localparam int LOG2_MAX = 12;  // a span has at most 2^12 pixels
   localparam int COUNT_W = 13;
+  localparam int PLACE_W = 12;  // a column or a line of the frame, which has at most 2^12 of each
   localparam int DEGREE_W = 2;
   localparam int TAG_W = 16;
   localparam int PIXELS_MAX = 4096;
@@ -166,6 +167,18 @@ package shade_pkg;
   localparam int LINE_TAG_LSB = 208;
   localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
   localparam int LINE_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+  localparam int TRIANGLE_DATA_W = 384;  // words of 32 bits: normal, increment per column, per line, x, y, z each, S2.29; then the box
+  localparam int TRIANGLE_COLUMN_LSB = 288;  // reference pixel: the left upper corner of the box of the triangle's pixels
+  localparam int TRIANGLE_LINE_LSB = 304;
+  localparam int TRIANGLE_COLUMNS_LSB = 320;  // size of the box
+  localparam int TRIANGLE_LINES_LSB = 336;
+  localparam int TRIANGLE_TAG_LSB = 352;  // given back with every pixel
+  localparam int TRIANGLE_FLAT = 368;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+  localparam int RUN_DATA_W = 64;  // a run of pixels on one raster line of the triangle
+  localparam int RUN_COLUMN_LSB = 0;  // its first pixel
+  localparam int RUN_LINE_LSB = 16;
+  localparam int RUN_COUNT_LSB = 32;  // its pixels
+  localparam int RUN_LAST = 48;  // the triangle's last run
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
   localparam int COLOUR_DATA_W = 48;  // red in the low third, then green, blue
@@ -621,6 +634,42 @@ package shade_pkg;
     status_word[9] = status[1];  // error_long
     status_word[8] = status[0];  // error_empty
   endfunction
+
+  // a triangle: its interpolated normal is a linear function of column and line; its runs are a stream of their own
+  typedef struct packed {
+    logic [14:0] unused_369;
+    logic [0:0] flat;
+    logic [15:0] tag;
+    logic [2:0] unused_349;
+    logic [12:0] lines;
+    logic [2:0] unused_333;
+    logic [12:0] columns;
+    logic [3:0] unused_316;
+    logic [11:0] line;
+    logic [3:0] unused_300;
+    logic [11:0] column;
+    logic signed [31:0] dline_z;
+    logic signed [31:0] dline_y;
+    logic signed [31:0] dline_x;
+    logic signed [31:0] dcolumn_z;
+    logic signed [31:0] dcolumn_y;
+    logic signed [31:0] dcolumn_x;
+    logic signed [31:0] normal_z;
+    logic signed [31:0] normal_y;
+    logic signed [31:0] normal_x;
+  } triangle_t;
+
+  // a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle
+  typedef struct packed {
+    logic [14:0] unused_49;
+    logic [0:0] last;
+    logic [2:0] unused_45;
+    logic [12:0] count;
+    logic [3:0] unused_28;
+    logic [11:0] line;
+    logic [3:0] unused_12;
+    logic [11:0] column;
+  } run_t;
 
 endpackage
 /* verilator lint_on UNUSEDPARAM */

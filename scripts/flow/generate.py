@@ -46,6 +46,9 @@ def package() -> str:
     for name, (value, comment) in registers.constants().items():
         lines.append(f"  localparam int {name} = {value};{comment and f'  // {comment}'}")
     lines += _register_file()
+    for name in ("TRIANGLE", "RUN"):
+        packet = packets.PACKETS[name]
+        lines += ["", f"  // {packet.meaning}", *_struct(f"{name.lower()}_t", packets.members(packet))]
     return "\n".join(
         [*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", "/* verilator lint_on UNUSEDSIGNAL */", ""]
     )

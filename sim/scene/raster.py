@@ -50,6 +50,7 @@ class Spans:
     count: NDArray[np.int32]  # (S,) pixels, at least 1
     normal: Floats  # (S, 3) at the first pixel
     gradient: Floats  # (S, 3) increment per pixel, the same for all spans of a triangle
+    line_gradient: Floats  # (S, 3) increment per raster line, as well
     depth: Floats  # (S,) at the first pixel, smaller is nearer
     depth_gradient: Floats  # (S,) increment per pixel
 
@@ -126,6 +127,7 @@ def scan_convert(screen: Screen, faces: NDArray[np.int32], size: int, cull: bool
     weight = (at_zero[kept] + left[:, None] * slope[kept]) / area[t, None]
     weight_step = -dy * SUBPIXELS / area[:, None]
     gradient = np.einsum("tk,tkc->tc", weight_step, screen.normals[corner])
+    line_gradient = np.einsum("tk,tkc->tc", dx * SUBPIXELS / area[:, None], screen.normals[corner])
     depth_gradient = np.einsum("tk,tk->t", weight_step, screen.depth[corner])
     return Spans(
         triangle=triangle[t].astype(np.int32),
@@ -134,6 +136,7 @@ def scan_convert(screen: Screen, faces: NDArray[np.int32], size: int, cull: bool
         count=(right - left + 1).astype(np.int32),
         normal=np.einsum("sk,skc->sc", weight, screen.normals[corner[t]]),
         gradient=gradient[t],
+        line_gradient=line_gradient[t],
         depth=np.einsum("sk,sk->s", weight, screen.depth[corner[t]]),
         depth_gradient=depth_gradient[t],
     )

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from polyshade.golden import contract as k
 from polyshade.golden.normal import pack_lines
-from polyshade.golden.packets import LINE, PACKETS, SPAN, Packet
+from polyshade.golden.packets import LINE, PACKETS, RUN, SPAN, TRIANGLE, Packet, members
+from polyshade.golden.packets import pack as pack_packet
 from polyshade.golden.poly import pack_spans
 from polyshade.golden.registers import Field
 
@@ -26,7 +27,19 @@ def span(field: Field, value: int) -> int:
     return whole(pack_spans(nodes, *([values[name]] for name in ("degree", "count", "tag", "more")))[0])
 
 
-@pytest.mark.parametrize("pack, packet", [(line, LINE), (span, SPAN)], ids=["LINE", "SPAN"])
+def triangle(field: Field, value: int) -> int:
+    return whole(pack_packet(TRIANGLE, **{field.name: [value]})[0])
+
+
+def run(field: Field, value: int) -> int:
+    return whole(pack_packet(RUN, **{field.name: [value]})[0])
+
+
+@pytest.mark.parametrize(
+    "pack, packet",
+    [(line, LINE), (span, SPAN), (triangle, TRIANGLE), (run, RUN)],
+    ids=["LINE", "SPAN", "TRIANGLE", "RUN"],
+)
 def test_every_field_is_where_the_table_says(pack, packet: Packet) -> None:
     for field in packet.fields:
         for value in {field.range[0], field.range[1], 1}:
@@ -41,3 +54,17 @@ def test_fields_do_not_overlap(name: str) -> None:
         bits = (1 << field.width) - 1 << field.lsb
         assert not used & bits and bits < 1 << PACKETS[name].width, field.name
         used |= bits
+
+
+@pytest.mark.parametrize("packet", [TRIANGLE, RUN], ids=["TRIANGLE", "RUN"])
+def test_a_structure_has_every_bit_once(packet: Packet) -> None:
+    end = packet.width
+    for field in members(packet):
+        end -= field.width
+        assert field.lsb == end
+    assert end == 0
+
+
+def test_an_unknown_field_is_refused() -> None:
+    with pytest.raises(ValueError, match="colour: no field of this packet"):
+        pack_packet(RUN, colour=[1])

@@ -30,7 +30,8 @@ def test_quantize(intensity: float, expected: int) -> None:
 def spans(count: list[int], normal: list, gradient: list) -> Spans:
     """Spans below each other."""
     line, zero = np.arange(len(count), dtype=np.int32), np.zeros(len(count))
-    return Spans(line, line, line * 0, np.array(count, np.int32), np.array(normal), np.array(gradient), zero, zero)
+    slope = np.array(gradient)
+    return Spans(line, line, line * 0, np.array(count, np.int32), np.array(normal), slope, slope * 0, zero, zero)
 
 
 def test_lines() -> None:

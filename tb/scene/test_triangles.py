@@ -1,0 +1,57 @@
+"""Packets of triangles and runs say of every pixel what the spans say: its place and its normal."""
+
+import numpy as np
+from polyshade.golden import contract as k
+from polyshade.sim.scene.camera import Camera, Screen
+from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.raster import Spans, scan_convert
+from polyshade.sim.scene.triangles import Triangles
+
+
+def spans_of(mesh: str, size: int) -> Spans:
+    loaded = load_mesh(mesh, 0)
+    return scan_convert(Camera(size).project(loaded), loaded.faces, size)
+
+
+def normal_at(triangles: Triangles, step: np.ndarray) -> np.ndarray:
+    """The normals so many columns behind the first pixels of the runs, by the packets alone."""
+    t = triangles.triangle
+    dx, dy = triangles.column + step - triangles.box[t, 0], triangles.line - triangles.box[t, 1]
+    whole = triangles.normal[t] + dx[:, None] * triangles.dcolumn[t] + dy[:, None] * triangles.dline[t]
+    return whole / (1 << k.STEP_F)
+
+
+def test_normals_at_both_ends_of_every_run() -> None:
+    spans = spans_of("head", 128)
+    triangles = Triangles.of(spans)
+    last = triangles.count - 1
+    assert np.abs(normal_at(triangles, 0 * last) - spans.normal).max() < 1e-6
+    assert np.abs(normal_at(triangles, last) - spans.normal - last[:, None] * spans.gradient).max() < 1e-6
+
+
+def test_boxes_hold_their_runs_and_runs_go_down() -> None:
+    triangles = Triangles.of(spans_of("head", 128))
+    column, line, columns, lines = triangles.box[triangles.triangle].T
+    assert np.all((column <= triangles.column) & (triangles.column + triangles.count <= column + columns))
+    assert np.all((line <= triangles.line) & (triangles.line < line + lines))
+    same = triangles.triangle[1:] == triangles.triangle[:-1]
+    assert np.all(np.diff(triangles.line)[same] > 0)
+    assert triangles.last.sum() == len(triangles.normal)
+
+
+def test_slivers_are_one_triangle_for_each_run() -> None:
+    """A sliver along the diagonal: 64 pixels, an increment of 16 per column."""
+    xy = np.array([[0.0, 0.0], [64.0, 64.03125], [64.0, 63.96875]])
+    normals = np.eye(3)
+    screen = Screen(xy=xy, depth=np.zeros(3), normals=normals)
+    spans = scan_convert(screen, np.array([[0, 1, 2]], np.int32), 64, cull=False)
+    triangles = Triangles.of(spans)
+    assert len(spans) == len(triangles.normal) > 8
+    assert np.abs(normal_at(triangles, 0 * spans.x) - spans.normal).max() < 1e-6
+    assert not triangles.dline.any()
+
+
+def test_nothing_seen_is_no_packet() -> None:
+    screen = Screen(xy=np.zeros((3, 2)), depth=np.zeros(3), normals=np.eye(3))
+    triangles = Triangles.of(scan_convert(screen, np.array([[0, 1, 2]], np.int32), 16))
+    assert triangles.beats.shape == (0, 12) and triangles.run_beats.shape == (0, 2)

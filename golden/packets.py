@@ -1,7 +1,7 @@
 """The packets of the streams as data: the one source for ``docs/interface.md``; positions are those of the contract.
 
-One packet is one beat of an AXI4-Stream. :func:`pack` makes beats from a table; ``golden.normal.pack_lines`` and
-``golden.poly.pack_spans`` are older ones, which a test holds to these tables.
+One packet is one beat of an AXI4-Stream, but for a triangle, which is six, followed by its runs. :func:`pack` makes
+beats from a table; ``golden.normal.pack_lines`` and ``golden.poly.pack_spans`` are older, a test holds them to these.
 """
 
 from __future__ import annotations
@@ -66,9 +66,9 @@ SPAN = Packet(
     ),
 )  # fmt: skip
 TRIANGLE = Packet(
-    "s_axis_triangle of shade_direct and of the patches, m_axis_triangle of shade_raster",
+    "s_axis_surface of shade_direct and of the patches, m_axis_surface of shade_raster, first six beats of a packet",
     k.TRIANGLE_DATA_W,
-    "a triangle: its interpolated normal is a linear function of column and line; its runs are a stream of their own",
+    "a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet",
     (
         *_vector("normal", 0, "interpolated normal at the reference pixel"),
         *_vector("dcolumn", 3 * k.STEP_W, "its increment per column (P4)"),
@@ -83,14 +83,13 @@ TRIANGLE = Packet(
 )
 """Increments of a sliver may not fit; it is then sent as one triangle for each run, without ``dline``."""
 RUN = Packet(
-    "s_axis_run of shade_direct and of the patches, m_axis_run of shade_raster",
+    "the same stream, all other beats of a packet; tlast comes with the last run",
     k.RUN_DATA_W,
     "a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle",
     (
         Field("column", k.PLACE_W, "its first pixel", lsb=k.RUN_COLUMN_LSB),
         Field("line", k.PLACE_W, "its raster line", lsb=k.RUN_LINE_LSB),
-        Field("count", k.COUNT_W, "pixels; 0 is allowed in a triangle's last run", lsb=k.RUN_COUNT_LSB),
-        Field("last", 1, "the triangle's last run", lsb=k.RUN_LAST),
+        Field("count", k.COUNT_W, "pixels, at least 1; in a triangle's last run also 0", lsb=k.RUN_COUNT_LSB),
     ),
 )
 PIXEL = Packet(
@@ -128,8 +127,8 @@ PACKETS = {
 def pack(packet: Packet, **values: ArrayLike) -> NDArray[np.uint32]:
     """Beats (S, words) of a packet from its fields by name; those not named are 0, bits beyond a field are cut.
 
-    >>> pack(RUN, column=[5], line=[6], count=[7], last=[1]).tolist()
-    [[393221, 65543]]
+    >>> pack(RUN, column=[5], line=[6], count=[7]).tolist()
+    [[393221, 7]]
     """
     unknown = values.keys() - {field.name for field in packet.fields}
     if unknown:

@@ -167,6 +167,8 @@ package shade_pkg;
   localparam int LINE_TAG_LSB = 208;
   localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
   localparam int LINE_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+  localparam int SURFACE_DATA_W = 64;  // a packet: a triangle in six beats, least significant first, then its runs, tlast with the last
+  localparam int TRIANGLE_BEATS = 6;
   localparam int TRIANGLE_DATA_W = 384;  // words of 32 bits: normal, increment per column, per line, x, y, z each, S2.29; then the box
   localparam int TRIANGLE_COLUMN_LSB = 288;  // reference pixel: the left upper corner of the box of the triangle's pixels
   localparam int TRIANGLE_LINE_LSB = 304;
@@ -178,7 +180,6 @@ package shade_pkg;
   localparam int RUN_COLUMN_LSB = 0;  // its first pixel
   localparam int RUN_LINE_LSB = 16;
   localparam int RUN_COUNT_LSB = 32;  // its pixels
-  localparam int RUN_LAST = 48;  // the triangle's last run
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
   localparam int COLOUR_DATA_W = 48;  // red in the low third, then green, blue
@@ -635,7 +636,7 @@ package shade_pkg;
     status_word[8] = status[0];  // error_empty
   endfunction
 
-  // a triangle: its interpolated normal is a linear function of column and line; its runs are a stream of their own
+  // a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet
   typedef struct packed {
     logic [14:0] unused_369;
     logic [0:0] flat;
@@ -661,9 +662,7 @@ package shade_pkg;
 
   // a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle
   typedef struct packed {
-    logic [14:0] unused_49;
-    logic [0:0] last;
-    logic [2:0] unused_45;
+    logic [18:0] unused_45;
     logic [12:0] count;
     logic [3:0] unused_28;
     logic [11:0] line;

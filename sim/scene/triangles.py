@@ -60,24 +60,27 @@ class Triangles:
 
     @property
     def last(self) -> Ints:
-        """(S,): the last run of its triangle."""
+        """(S,): 1 for the last run of its triangle."""
         return np.r_[self.triangle[1:] != self.triangle[:-1], True][: len(self.triangle)].astype(np.int64)
 
-    @property
-    def beats(self) -> NDArray[np.uint32]:
-        """(T, 12): ``s_axis_triangle_tdata``."""
+    def stream(self) -> dict[str, NDArray]:
+        """Packets, beat by beat: ``s_axis_surface_tdata`` and ``_tlast``."""
         vectors = {
             f"{name}_{axis}": getattr(self, name)[:, i]
             for name in ("normal", "dcolumn", "dline")
             for i, axis in enumerate("xyz")
         }
         box = dict(zip(("column", "line", "columns", "lines"), self.box.T, strict=True))
-        return pack(TRIANGLE, **vectors, **box, tag=self.tag, flat=self.flat)
-
-    @property
-    def run_beats(self) -> NDArray[np.uint32]:
-        """(S, 2): ``s_axis_run_tdata``."""
-        return pack(RUN, column=self.column, line=self.line, count=self.count, last=self.last)
+        heads = pack(TRIANGLE, **vectors, **box, tag=self.tag, flat=self.flat).view(np.uint64)
+        runs = pack(RUN, column=self.column, line=self.line, count=self.count).view(np.uint64)
+        at = np.arange(len(runs)) + k.TRIANGLE_BEATS * (self.triangle + 1)  # where the runs are among all beats
+        beats = np.zeros(len(runs) + heads.size, np.uint64)
+        place = np.ones(len(beats), bool)
+        place[at] = False
+        beats[at], beats[place] = runs[:, 0], heads.ravel()
+        last = np.zeros(len(beats), np.int64)
+        last[at] = self.last
+        return {"s_axis_surface_tdata": beats, "s_axis_surface_tlast": last}
 
 
 def _corners(spans: Spans, x: Ints, y: Ints, count: Ints, at: Ints) -> tuple[NDArray, Ints]:

@@ -54,4 +54,21 @@ def test_slivers_are_one_triangle_for_each_run() -> None:
 def test_nothing_seen_is_no_packet() -> None:
     screen = Screen(xy=np.zeros((3, 2)), depth=np.zeros(3), normals=np.eye(3))
     triangles = Triangles.of(scan_convert(screen, np.array([[0, 1, 2]], np.int32), 16))
-    assert triangles.beats.shape == (0, 12) and triangles.run_beats.shape == (0, 2)
+    assert [len(part) for part in triangles.stream().values()] == [0, 0]
+
+
+def test_a_packet_is_a_triangle_and_its_runs() -> None:
+    triangles = Triangles.of(spans_of("head", 128))
+    beats, last = triangles.stream().values()
+    ends = np.flatnonzero(last) + 1
+    assert len(ends) == len(triangles.normal)
+    for t, (first, end) in enumerate(zip(np.r_[0, ends[:-1]], ends, strict=True)):
+        words = beats[first:end].view("<u4")
+        assert words[:9].astype(np.int32).tolist() == [
+            *triangles.normal[t], *triangles.dcolumn[t], *triangles.dline[t]
+        ]  # fmt: skip
+        column, line, columns, lines = triangles.box[t]
+        assert words[9:12].tolist() == [column | line << 16, columns | lines << 16, triangles.tag[t]]
+        runs = np.flatnonzero(triangles.triangle == t)
+        assert words[12::2].tolist() == (triangles.column[runs] | triangles.line[runs] << 16).tolist()
+        assert words[13::2].tolist() == triangles.count[runs].tolist()

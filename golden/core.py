@@ -226,7 +226,7 @@ class RegisterFile:
     """
 
     def __init__(self) -> None:
-        self.at = {register.offset: register for register in registers.registers()}
+        self.at = {register.offset: register for register in registers.every()}
         self.words = {register.name: register.reset for register in self.at.values()}
 
     def read(self, offset: int, busy: bool = False) -> tuple[int, bool]:

@@ -213,7 +213,7 @@ GROUPS: dict[str, tuple[Register, ...]] = {
 """After reset: Lambert's light from the viewer on a white surface."""
 
 
-def registers() -> Iterator[Register]:
+def every() -> Iterator[Register]:
     """All of the map, by rising offset."""
     for group in GROUPS.values():
         yield from group
@@ -221,14 +221,14 @@ def registers() -> Iterator[Register]:
 
 def settings() -> Iterator[Field]:
     """The fields that hold what was written: a draw call's settings."""
-    for register in registers():
+    for register in every():
         if register.access == "rw":
             yield from (field for field in register.fields if field.name != "clear")
 
 
 def faults() -> Iterator[Field]:
     """The bits of STATUS that stay until they are cleared: all but ``busy``."""
-    for register in registers():
+    for register in every():
         if register.name == "STATUS":
             yield from register.fields[1:]
 
@@ -241,7 +241,7 @@ def after_reset() -> dict[str, int]:
 def constants() -> dict[str, tuple[int, str]]:
     """Value and comment of REG_<register>, of _<FIELD>_LSB where it is not 0, of _RESET where the word is not 0."""
     found: dict[str, tuple[int, str]] = {}
-    for register in registers():
+    for register in every():
         name = f"REG_{register.name}"
         found[name] = register.offset, f"{register.offset:#05x}, {register.access}"
         found |= {f"{name}_{field.name.upper()}_LSB": (field.lsb, "") for field in register.fields if field.lsb}
@@ -260,7 +260,7 @@ def pack(values: Mapping[str, int]) -> dict[int, int]:
     """
     words = {}
     left = dict(values)
-    for register in registers():
+    for register in every():
         if register.access == "rw" and left.keys() & {field.name for field in register.fields}:
             words[register.offset] = sum(_bits(field, left.pop(field.name, field.reset)) for field in register.fields)
     if left:
@@ -291,7 +291,7 @@ def unpack(offset: int, word: int) -> dict[str, int]:
     >>> unpack(148, 1057062912)
     {'gain': 98304, 'gain_exp': -1}
     """
-    for register in registers():
+    for register in every():
         if register.offset == offset:
             return {field.name: _value(field, word) for field in register.fields}
     raise ValueError(f"{offset:#x}: no register, allowed are those of docs/registers.md")

@@ -22,7 +22,7 @@ from polyshade.sim.scene.raster import Spans
 
 Ints = NDArray[np.int64]
 TAGS = 1 << k.TAG_W
-OFFSETS = {register.name: register.offset for register in registers.registers()}
+OFFSETS = {register.name: register.offset for register in registers.every()}
 WHOLE = {"s_axis_span_tkeep": (1 << k.LINE_DATA_W // 8) - 1, "s_axis_span_tlast": 1}  # beside a packet's data
 COUNTERS = [register.name for register in registers.GROUPS["Counters"]]
 TOLD = ("light_model", "light_range", "light_zero", "light_saturated", "normal_zero", "normal_short")  # as in ``flags``
@@ -70,7 +70,7 @@ def quantize(value: ArrayLike) -> Ints:
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Compared:
     """What the core made of spans. ``pixels`` (P, 2) U0.16: in the order of the spans, 0 where none came."""
 
     pixels: Ints
@@ -86,7 +86,7 @@ class Drawn:
 
 def draw(
     lines: Lines, words: Mapping[str, int], stage: Callable[[str], None] = lambda name: None, **parameters: int
-) -> Drawn:
+) -> Compared:
     """Draw spans by ``shade_core`` at a parameter point, settings by the names of ``golden.registers``; compare."""
     model = sim.load("shade_core", **parameters)
     stage("simulate")
@@ -104,7 +104,7 @@ def draw(
     counters = {name.lower(): run.registers[OFFSETS[name]] for name in COUNTERS}
     bits = registers.unpack(OFFSETS["STATUS"], run.registers[OFFSETS["STATUS"]])
     clocks = int(run.given[-1] - run.taken[0] + 1) if len(run.given) else 0
-    return Drawn(
+    return Compared(
         pixels, wanted, clocks, seconds, counters, [name for name, bit in bits.items() if bit], mismatches, first,
         compare_counters(counters, bits, wanted),
     )  # fmt: skip

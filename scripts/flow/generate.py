@@ -59,7 +59,7 @@ def _register_file() -> list[str]:
 
     The functions take structures as vectors: Yosys' own reader does not know the fields of a function's variables.
     """
-    settings, every = list(registers.settings()), list(registers.registers())
+    settings, every = list(registers.settings()), list(registers.every())
     faults = list(registers.faults())[::-1]  # the first one at the bottom, as in the word
     return [
         "",
@@ -130,7 +130,7 @@ def _each(settings: list[registers.Field], statement: str) -> list[str]:
             word=f"{field.lsb}+:{field.width}", draw=f"{placed[field]}+:{field.width}", width=field.width, select=select
         )
         + f"  // {field.name}"
-        for select, register in enumerate(reversed(list(registers.registers())))
+        for select, register in enumerate(reversed(list(registers.every())))
         for field in register.fields
         if field in placed
     ]

@@ -12,7 +12,7 @@ from polyshade.golden.core import RegisterFile
 from tb.bench import PRESSURE, Bench, Mismatch, Sink, Source, checked, no_path
 from tb.runner import simulate
 
-ALL = list(registers.registers())
+ALL = list(registers.every())
 OFFSETS = {register.name: register.offset for register in ALL}
 CLEAR = 1 << 31
 COUNTERS = {"pixels": 3, "spans": 3, "stalls": 3, "evaluations": 3, "errors": 3}  # bits of their inputs

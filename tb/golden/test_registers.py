@@ -12,7 +12,7 @@ from polyshade.golden.plan import THRESHOLDS
 from polyshade.scripts.flow import generate
 from polyshade.sim.sources import ROOT
 
-ALL = list(registers.registers())
+ALL = list(registers.every())
 
 
 def test_offsets_rise() -> None:

@@ -73,15 +73,20 @@ TRIANGLE = Packet(
         *_vector("normal", 0, "interpolated normal at the reference pixel"),
         *_vector("dcolumn", 3 * k.STEP_W, "its increment per column (P4)"),
         *_vector("dline", 6 * k.STEP_W, "its increment per line"),
-        Field("column", k.PLACE_W, "of the reference pixel: the first of the box", lsb=k.TRIANGLE_COLUMN_LSB),
-        Field("line", k.PLACE_W, "of the reference pixel: the first of the box", lsb=k.TRIANGLE_LINE_LSB),
-        Field("columns", k.COUNT_W, "of the box that all runs lie in, 1 to 4096", lsb=k.TRIANGLE_COLUMNS_LSB),
-        Field("lines", k.COUNT_W, "of the box that all runs lie in, 1 to 4096", lsb=k.TRIANGLE_LINES_LSB),
+        Field(
+            "column", k.PLACE_W, "of the reference pixel: the first pixel of the first run", lsb=k.TRIANGLE_COLUMN_LSB
+        ),
+        Field("line", k.PLACE_W, "of the reference pixel: the first line of the box", lsb=k.TRIANGLE_LINE_LSB),
+        Field("columns", k.COUNT_W, "of the box of all pixels, 1 to 4096", lsb=k.TRIANGLE_COLUMNS_LSB),
+        Field("lines", k.COUNT_W, "of the box of all pixels, 1 to 4096", lsb=k.TRIANGLE_LINES_LSB),
         Field("tag", k.TAG_W, "given back with every pixel", lsb=k.TRIANGLE_TAG_LSB),
+        Field("left", k.PLACE_W, "columns of the box on the left of the reference pixel", lsb=k.TRIANGLE_LEFT_LSB),
         Field("flat", 1, "the triangle passed P2's criterion: no normalizing in diffuse light", lsb=k.TRIANGLE_FLAT),
     ),
 )
-"""Increments of a sliver may not fit; it is then sent as one triangle for each run, without ``dline``."""
+"""``dcolumn`` 2^kx and ``dline`` 2^ky are within [-2, 2), where 2^kx, at least 1, is the largest power of two that is
+less than ``columns``, and 2^ky likewise of ``lines``. Slivers that do not fit are sent as one triangle for each run:
+``lines`` is then 1 and ``dline`` 0. With one column ``dcolumn`` is 0."""
 RUN = Packet(
     "the same stream, all other beats of a packet; tlast comes with the last run",
     k.RUN_DATA_W,

@@ -170,12 +170,13 @@ package shade_pkg;
   localparam int SURFACE_DATA_W = 64;  // a packet: a triangle in six beats, least significant first, then its runs, tlast with the last
   localparam int TRIANGLE_BEATS = 6;
   localparam int TRIANGLE_DATA_W = 384;  // words of 32 bits: normal, increment per column, per line, x, y, z each, S2.29; then the box
-  localparam int TRIANGLE_COLUMN_LSB = 288;  // reference pixel: the left upper corner of the box of the triangle's pixels
+  localparam int TRIANGLE_COLUMN_LSB = 288;  // reference pixel: the first pixel of the first run
   localparam int TRIANGLE_LINE_LSB = 304;
-  localparam int TRIANGLE_COLUMNS_LSB = 320;  // size of the box
+  localparam int TRIANGLE_COLUMNS_LSB = 320;  // size of the box of all pixels
   localparam int TRIANGLE_LINES_LSB = 336;
   localparam int TRIANGLE_TAG_LSB = 352;  // given back with every pixel
-  localparam int TRIANGLE_FLAT = 368;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+  localparam int TRIANGLE_LEFT_LSB = 368;  // columns of the box to the left of the reference pixel
+  localparam int TRIANGLE_FLAT = 380;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
   localparam int RUN_DATA_W = 64;  // a run of pixels on one raster line of the triangle
   localparam int RUN_COLUMN_LSB = 0;  // its first pixel
   localparam int RUN_LINE_LSB = 16;
@@ -638,8 +639,9 @@ package shade_pkg;
 
   // a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet
   typedef struct packed {
-    logic [14:0] unused_369;
+    logic [2:0] unused_381;
     logic [0:0] flat;
+    logic [11:0] left;
     logic [15:0] tag;
     logic [2:0] unused_349;
     logic [12:0] lines;

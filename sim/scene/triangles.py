@@ -17,13 +17,13 @@ Ints = NDArray[np.int64]
 class Triangles:
     """Triangles (T, ...) and their runs (S,), in order. Normals and increments S2.29.
 
-    A sliver whose normal at the corner of its box or whose increments do not fit is one triangle for each run.
+    A sliver whose increments do not fit, see ``golden.packets.TRIANGLE``, is one triangle for each run.
     """
 
-    normal: Ints  # (T, 3) at the left upper corner of the box
+    normal: Ints  # (T, 3) at the reference pixel, the first of the first run
     dcolumn: Ints  # (T, 3)
     dline: Ints  # (T, 3)
-    box: Ints  # (T, 4) column, line, columns, lines
+    box: Ints  # (T, 5) column and line of the reference pixel, columns, lines, columns left of the reference pixel
     tag: Ints  # (T,)
     flat: Ints  # (T,)
     triangle: Ints  # (S,) index of a run's triangle
@@ -36,23 +36,19 @@ class Triangles:
         """Quantized, to nearest; ``flat`` (F,) of every face of the mesh."""
         face, x, y, count = (part.astype(np.int64) for part in (spans.triangle, spans.x, spans.y, spans.count))
         first = np.r_[True, face[1:] != face[:-1]][: len(face)]  # runs with which a triangle begins
-        owner = np.cumsum(first) - 1
-        corner, box = _corners(spans, x, y, count, np.flatnonzero(first))
+        whole = _parts(spans, x, y, count, np.flatnonzero(first))
+        small = np.all([_fits(part, box) for part, box in zip(whole[:2], whole[2].T[2:4], strict=True)], axis=0)
+        first |= ~small[np.cumsum(first) - 1]
         at = np.flatnonzero(first)
-        small = np.all([_fits(v) for v in (corner, spans.gradient[at], spans.line_gradient[at])], axis=0)
-        first |= ~small[owner]
-        alone, at = ~small[owner][first], np.flatnonzero(first)
-        owner = np.cumsum(first) - 1
-        corner, box = _corners(spans, x, y, count, at)
-        single = (alone & (count[at] == 1))[:, None]
+        dcolumn, dline, box = _parts(spans, x, y, count, at)
         return cls(
-            normal=_quantize(np.where(alone[:, None], spans.normal[at], corner)),
-            dcolumn=_quantize(np.where(single, 0, spans.gradient[at])),
-            dline=_quantize(np.where(alone[:, None], 0, spans.line_gradient[at])),
+            normal=_quantize(spans.normal[at]),
+            dcolumn=_quantize(dcolumn),
+            dline=_quantize(dline),
             box=box,
             tag=face[at] % (1 << k.TAG_W),
             flat=np.zeros(len(at), np.int64) if flat is None else np.asarray(flat, np.int64)[face[at]],
-            triangle=owner,
+            triangle=np.cumsum(first) - 1,
             column=x,
             line=y,
             count=count,
@@ -70,7 +66,7 @@ class Triangles:
             for name in ("normal", "dcolumn", "dline")
             for i, axis in enumerate("xyz")
         }
-        box = dict(zip(("column", "line", "columns", "lines"), self.box.T, strict=True))
+        box = dict(zip(("column", "line", "columns", "lines", "left"), self.box.T, strict=True))
         heads = pack(TRIANGLE, **vectors, **box, tag=self.tag, flat=self.flat).view(np.uint64)
         runs = pack(RUN, column=self.column, line=self.line, count=self.count).view(np.uint64)
         at = np.arange(len(runs)) + k.TRIANGLE_BEATS * (self.triangle + 1)  # where the runs are among all beats
@@ -83,20 +79,21 @@ class Triangles:
         return {"s_axis_surface_tdata": beats, "s_axis_surface_tlast": last}
 
 
-def _corners(spans: Spans, x: Ints, y: Ints, count: Ints, at: Ints) -> tuple[NDArray, Ints]:
-    """Normals at the corners of the boxes, and the boxes, of triangles that begin at the runs ``at``."""
+def _parts(spans: Spans, x: Ints, y: Ints, count: Ints, at: Ints) -> tuple[NDArray, NDArray, Ints]:
+    """Increments per column and line, and boxes, of triangles that begin at the runs ``at``."""
     if not len(at):
-        return np.zeros((0, 3)), np.zeros((0, 4), np.int64)
-    column, line = np.minimum.reduceat(x, at), y[at]
-    columns = np.maximum.reduceat(x + count, at) - column
-    lines = np.maximum.reduceat(y, at) + 1 - line
-    corner = spans.normal[at] - (x[at] - column)[:, None] * spans.gradient[at]
-    return corner, np.stack([column, line, columns, lines], axis=-1)
+        return np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 5), np.int64)
+    left, right = np.minimum.reduceat(x, at), np.maximum.reduceat(x + count, at)
+    columns, lines = right - left, np.maximum.reduceat(y, at) + 1 - y[at]
+    dcolumn = np.where((columns > 1)[:, None], spans.gradient[at], 0)
+    dline = np.where((lines > 1)[:, None], spans.line_gradient[at], 0)
+    return dcolumn, dline, np.stack([x[at], y[at], columns, lines, x[at] - left], axis=-1)
 
 
-def _fits(vector: NDArray) -> NDArray[np.bool_]:
-    """Does it fit S2.29 with room for rounding."""
-    return np.abs(vector).max(axis=1, initial=0) < (1 << k.STEP_W - 1 - k.STEP_F) - 1e-6
+def _fits(increment: NDArray, size: Ints) -> NDArray[np.bool_]:
+    """Is the increment, times the largest power of two below the box's size, within [-2, 2), with room for rounding."""
+    power = np.exp2(np.floor(np.log2(np.maximum(size - 1, 1))))
+    return np.abs(increment).max(axis=1, initial=0) * power < 2 - 1e-4
 
 
 def _quantize(vector: NDArray) -> Ints:

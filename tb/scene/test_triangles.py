@@ -31,12 +31,24 @@ def test_normals_at_both_ends_of_every_run() -> None:
 
 def test_boxes_hold_their_runs_and_runs_go_down() -> None:
     triangles = Triangles.of(spans_of("head", 128))
-    column, line, columns, lines = triangles.box[triangles.triangle].T
+    column, line, columns, lines, left = triangles.box[triangles.triangle].T
+    column = column - left
     assert np.all((column <= triangles.column) & (triangles.column + triangles.count <= column + columns))
     assert np.all((line <= triangles.line) & (triangles.line < line + lines))
     same = triangles.triangle[1:] == triangles.triangle[:-1]
     assert np.all(np.diff(triangles.line)[same] > 0)
     assert triangles.last.sum() == len(triangles.normal)
+    first = np.r_[True, ~same]
+    assert np.array_equal(triangles.box[:, 0], triangles.column[first])
+    assert np.array_equal(triangles.box[:, 1], triangles.line[first])
+
+
+def test_increments_fit() -> None:
+    triangles = Triangles.of(spans_of("head", 128))
+    for increment, size in zip((triangles.dcolumn, triangles.dline), triangles.box.T[2:4], strict=True):
+        power = np.exp2(np.floor(np.log2(np.maximum(size - 1, 1))))[:, None]
+        assert np.abs(increment * power).max() < 2 << k.STEP_F
+        assert not increment[size == 1].any()
 
 
 def test_slivers_are_one_triangle_for_each_run() -> None:
@@ -67,8 +79,8 @@ def test_a_packet_is_a_triangle_and_its_runs() -> None:
         assert words[:9].astype(np.int32).tolist() == [
             *triangles.normal[t], *triangles.dcolumn[t], *triangles.dline[t]
         ]  # fmt: skip
-        column, line, columns, lines = triangles.box[t]
-        assert words[9:12].tolist() == [column | line << 16, columns | lines << 16, triangles.tag[t]]
+        column, line, columns, lines, left = triangles.box[t]
+        assert words[9:12].tolist() == [column | line << 16, columns | lines << 16, triangles.tag[t] | left << 16]
         runs = np.flatnonzero(triangles.triangle == t)
         assert words[12::2].tolist() == (triangles.column[runs] | triangles.line[runs] << 16).tolist()
         assert words[13::2].tolist() == triangles.count[runs].tolist()

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import contract as k
 from .fixed import ONE, Int, clamp, integers, limit, round, rsqrt, weigh, wrap
 from .stream import walk
+from .types import SPAN, pack
 
 
 def normalize(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Int, Int, Int]:
@@ -259,8 +260,9 @@ def pack_lines(
     n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, tag: ArrayLike = 0, flat: ArrayLike = 0
 ) -> np.ndarray:
     """Lines as beats of ``s_axis_line_tdata``, or ``s_axis_span_tdata``: (S, 8) uint32. Layout: golden.contract."""
-    n, g = integers(n, g)
-    count, cosine, tag, flat = integers(count, cosine, tag, flat)
-    ends = cosine & ((1 << k.INTENSITY_W) - 1) | flat << k.LINE_FLAT - k.LINE_COS_LSB
-    words = [*n.T, *g.T, count | tag << k.LINE_TAG_LSB - k.LINE_COUNT_LSB, ends]
-    return (np.stack(words, axis=-1) & 0xFFFFFFFF).astype(np.uint32)
+    parts = {
+        f"{name}.{axis}": v
+        for name, rows in (("normal", n), ("increment", g))
+        for axis, v in zip("xyz", integers(rows)[0].T, strict=True)
+    }
+    return pack(SPAN, parts | {"count": count, "tag": tag, "cosine": cosine, "flat": flat})

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import contract as k
 from .fixed import Int, integers, round, saturate, third
 from .stream import walk
+from .types import RECORD, pack
 
 
 def coef_a(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED) -> Int:
@@ -204,23 +205,8 @@ def pack_spans(
     ``more``: 1 where the span goes on in the next beat; its last pixel is not marked as the last.
     """
     (nodes,) = integers(nodes)
-    degree, count, tag, more = integers(degree, count, tag, more)
-    mask = (1 << k.INTENSITY_W) - 1
-    fields = [
-        *(
-            (nodes[:, c, i], mask, k.INTENSITY_W * (k.NODE_COUNT * c + i))
-            for c in range(k.CHANNELS)
-            for i in range(k.NODE_COUNT)
-        ),
-        (count, (1 << k.COUNT_W) - 1, k.SPAN_COUNT_LSB),
-        (more, 1, k.SPAN_MORE),
-        (degree, (1 << k.DEGREE_W) - 1, k.SPAN_DEGREE_LSB),
-        (tag, (1 << k.TAG_W) - 1, k.SPAN_TAG_LSB),
-    ]
-    words = np.zeros((len(nodes), k.SPAN_DATA_W // 32 + 1), np.uint64)  # the last one takes a carry that is always 0
-    for value, field_mask, lsb in fields:
-        word, shift = divmod(lsb, 32)
-        bits = (value & field_mask).astype(np.uint64) << np.uint64(shift)
-        words[:, word] |= bits & np.uint64(0xFFFFFFFF)
-        words[:, word + 1] |= bits >> np.uint64(32)
-    return words[:, :-1].astype(np.uint32)
+    lit = {
+        f"{name}.n{i}": nodes[:, c, i] for c, name in enumerate(("diffuse", "specular")) for i in range(k.NODE_COUNT)
+    }
+    head = {"count": count, "more": more, "degree": degree, "tag": tag}
+    return pack(RECORD, lit | {f"head.{name}": value for name, value in head.items()})

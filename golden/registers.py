@@ -8,39 +8,14 @@ takes offsets, positions and resets into ``rtl/shade_pkg.sv``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import dataclass, replace
 
 from . import contract as k
 from .plan import THRESHOLDS
+from .types import DRAW, ERRORS, FLAGS, STATUS, Field, Struct
 
 VERSION = (0, 1, 0)
 ID = int.from_bytes(b"PSHD", "big")
-
-
-@dataclass(frozen=True)
-class Field:
-    """Bits of a register. ``format``: S and U numbers, or "" for a code or a count."""
-
-    name: str
-    width: int
-    meaning: str
-    format: str = ""
-    lsb: int = 0
-    reset: int = 0
-
-    @property
-    def range(self) -> tuple[int, int]:
-        """The least and the largest value that the bits can hold."""
-        half = 1 << self.width - 1
-        return (-half, half - 1) if self.format.startswith("S") else (0, 2 * half - 1)
-
-    @property
-    def bits(self) -> str:
-        """As in documentation: "16:0", or "3" for a single one."""
-        return f"{self.lsb + self.width - 1}:{self.lsb}" if self.width > 1 else f"{self.lsb}"
 
 
 @dataclass(frozen=True)
@@ -72,10 +47,21 @@ def _codes(prefix: str) -> str:
     return ", ".join(f"{code}: {name.lower().replace('_', '-')}" for name, code in names.items() if name != "W")
 
 
-def _vector(letter: str, meaning: str, z: int) -> dict[str, Field]:
+def _names(struct: Struct) -> list[str]:
+    return [field.name for field in struct.leaves()]
+
+
+def _put(path: str, lsb: int = 0, reset: int = 0, name: str = "", meaning: str = "") -> Field:
+    """A setting, or a bit of STATUS, at a place in its register: a leaf of ``draw_t`` or ``status_t``."""
+    leaf = (STATUS if path.startswith(("error.", "node.")) else DRAW).leaf(path)
+    name = name or leaf.name.rpartition(".")[2]
+    return replace(leaf, name=name, meaning=meaning or leaf.meaning, lsb=lsb, reset=reset, path=path)
+
+
+def _vector(letter: str, meaning: str) -> dict[str, Field]:
     return {
-        f"{letter}{axis}".upper(): Field(
-            f"{letter}{axis}", k.INTENSITY_W, f"{meaning}, {axis}", "S1.16", reset=z if axis == "z" else 0
+        f"{letter}{axis}".upper(): _put(
+            f"light.{letter}.{axis}", 0, _ONE if axis == "z" else 0, f"{letter}{axis}", f"{meaning}, {axis}"
         )
         for axis in "xyz"
     }
@@ -83,7 +69,9 @@ def _vector(letter: str, meaning: str, z: int) -> dict[str, Field]:
 
 def _colour(name: str, meaning: str, reset: int) -> dict[str, Field]:
     return {
-        f"{name}_{channel}".upper(): Field(f"{name}_{channel}", k.PIXEL_W + 1, f"{meaning}, {word}", "U1.16", 0, reset)
+        f"{name}_{channel}".upper(): _put(
+            f"colour.{name}.{channel}", 0, reset, f"{name}_{channel}", f"{meaning}, {word}"
+        )
         for channel, word in {"r": "red", "g": "green", "b": "blue"}.items()
     }
 
@@ -106,10 +94,10 @@ GROUPS: dict[str, tuple[Register, ...]] = {
             0x08,
             "rw",
             CONTROL=(
-                Field("path", 1, "0: polynomials, 1: a unit normal at every pixel"),
-                Field("colour", 1, "pixels are 0: diffuse and specular light, 1: weighted red, green, blue", lsb=1),
-                Field("variant", k.VARIANT_W, f"of path 1, {_codes('VARIANT')}", lsb=4),
-                Field("fixed_degree", k.DEGREE_W, "0: adaptive, 1 to 3: of every span, as in P1", lsb=8),
+                _put("control.path"),
+                _put("control.colour", 1),
+                _put("control.variant", 4, meaning=f"of path 1, {_codes('VARIANT')}"),
+                _put("control.fixed_degree", 8),
                 Field("clear", 1, "writing 1: counters and STATUS become 0, the next span goes to lane 0", lsb=31),
             ),
         ),
@@ -118,17 +106,13 @@ GROUPS: dict[str, tuple[Register, ...]] = {
             "ro",
             STATUS=(
                 Field("busy", 1, "spans are inside; the other bits stay until they are cleared"),
-                Field("error_empty", 1, "a span of 0 pixels", lsb=8),
-                Field("error_long", 1, "a span of more than 4096 pixels", lsb=9),
-                Field("error_packet", 1, "a packet cut short or too long", lsb=10),
-                Field("error_metric", 1, "V1, V2: fewer than 3 sectors or more than 12", lsb=11),
-                Field("error_threshold", 1, "threshold outside [0, 1]", lsb=12),
-                Field("light_model", 1, "a reserved model, or one that was not built in", lsb=16 + k.LIGHT_MODEL),
-                Field("light_range", 1, "a cosine outside [-1, 1]", lsb=16 + k.LIGHT_RANGE),
-                Field("light_zero", 1, "a denominator of 0: no specular light", lsb=16 + k.LIGHT_ZERO),
-                Field("light_saturated", 1, "light beyond its format", lsb=16 + k.LIGHT_SATURATED),
-                Field("normal_zero", 1, "a normal of length 0", lsb=24),
-                Field("normal_short", 1, "a normal too short to be brought to length 1", lsb=25),
+                *(
+                    _put(f"error.{name}", 8 + i, name=f"error_{name.removeprefix('too_')}")
+                    for i, name in enumerate(_names(ERRORS))
+                ),
+                *(_put(f"node.light.{name}", 16 + i, name=f"light_{name}") for i, name in enumerate(_names(FLAGS))),
+                _put("node.normal_zero", 24),
+                _put("node.normal_short", 25),
             ),
         ),
     ),
@@ -145,62 +129,29 @@ GROUPS: dict[str, tuple[Register, ...]] = {
     "Planner": _group(
         0x40,
         "rw",
-        SHARPNESS=(
-            Field(
-                "sharpness",
-                k.SHARPNESS_F + 1,
-                "n of the cos^n that turns as fast as the highlight, mantissa",
-                "U1.16",
-                reset=_ONE,
-            ),
-            Field("sharpness_exp", k.SHARPNESS_EXP_W, "and exponent, 0 to 12", lsb=24, reset=1),
-        ),
-        T1=Field("t1", k.KAPPA_W, "kappa up to which a line is enough", "U11.20", reset=THRESHOLDS[0]),
-        T2=Field("t2", k.KAPPA_W, "kappa up to which a parabola is enough", "U11.20", reset=THRESHOLDS[1]),
-        T3=Field("t3", k.KAPPA_W, "kappa up to which a cubic is enough", "U11.20", reset=THRESHOLDS[2]),
-        THRESHOLD=Field(
-            "threshold",
-            k.INTENSITY_W,
-            "V1, V2, V4, V5: a shorter middle is normalized",
-            "S1.16",
-            reset=k.METRIC_THRESHOLD,
-        ),
+        SHARPNESS=(_put("planner.sharpness", 0, _ONE), _put("planner.sharpness_exp", 24, 1)),
+        T1=_put("planner.t1", 0, THRESHOLDS[0]),
+        T2=_put("planner.t2", 0, THRESHOLDS[1]),
+        T3=_put("planner.t3", 0, THRESHOLDS[2]),
+        THRESHOLD=_put("planner.threshold", 0, k.METRIC_THRESHOLD),
     ),
     "Material": _group(
         0x80,
         "rw",
-        MODEL=(
-            Field("model", k.MODEL_W, _codes("MODEL")),
-            Field("cosine", 1, "specular light is multiplied by N.L", lsb=8),
-        ),
-        K1=Field("k1", k.LOBE_K1_W, "of the lobe, for the scaled x", "U1.20"),
-        K2=Field("k2", k.LOBE_K2_W, "of the lobe, for the scaled x", "S0.17"),
-        XMAX=(
-            Field("xmax", k.LOBE_X_F + 1, "limit of the scaled x", "U1.16"),
-            Field(
-                "shift",
-                k.LOBE_SHIFT_W,
-                f"x is scaled by 2^shift; {k.LOBE_FINE}: not, but k1 and k2 are by {1 << k.LOBE_FINE_F}",
-                lsb=24,
-            ),
-            Field("power", k.LOBE_POWER_W, "squarings of the lobe, 0 to 4; more count as 4", lsb=28, reset=4),
-        ),
-        INV_N=(
-            Field("inv_n", 17, "Schlick: 1/n, mantissa", "U1.16"),
-            Field("inv_n_exp", k.INV_EXP_W, "and negative exponent", lsb=24),
-        ),
-        GAIN=(
-            Field("gain", k.GAIN_F + 1, "of specular light, mantissa", "U1.16"),
-            Field("gain_exp", k.GAIN_EXP_W, "and exponent", "S5.0", lsb=24),
-        ),
-        F0=Field("f0", 17, "Fresnel's factor at V.H = 1, where it is computed at every node", "U1.16"),
+        MODEL=(_put("material.model", meaning=_codes("MODEL")), _put("material.cosine", 8)),
+        K1=_put("material.k1"),
+        K2=_put("material.k2"),
+        XMAX=(_put("material.xmax"), _put("material.shift", 24), _put("material.power", 28, 4)),
+        INV_N=(_put("material.inv_n"), _put("material.inv_n_exp", 24)),
+        GAIN=(_put("material.gain"), _put("material.gain_exp", 24)),
+        F0=_put("material.f0"),
     ),
     "Light": _group(
         0xC0,
         "rw",
-        **_vector("l", "direction to the light", _ONE),
-        **_vector("h", "half way between it and the viewer's", _ONE),
-        VH=Field("vh", 17, "V.H", "U1.16", reset=_ONE),
+        **_vector("l", "direction to the light"),
+        **_vector("h", "half way between it and the viewer's"),
+        VH=_put("light.vh", 0, _ONE),
     ),
     "Colour": _group(
         0x100,
@@ -268,21 +219,19 @@ def pack(values: Mapping[str, int]) -> dict[int, int]:
     return words
 
 
-def pack_draw(values: Mapping[str, int]) -> NDArray[np.uint32]:
-    """All settings as the structure ``shade_pkg::draw_t``: words, least significant first; the first one is at the top.
+def draw(values: Mapping[str, int]) -> dict[str, int]:
+    """All settings by their names in ``shade_pkg::draw_t``, for a port of that type.
 
     Settings that are not named are as reset leaves them. ValueError as in ``pack``.
 
-    >>> int(pack_draw({"ks_b": 5})[0])  # the last one
-    5
+    >>> draw({"ks_b": 5})["colour.ks.b"], draw({})["material.power"]
+    (5, 4)
     """
     if unknown := values.keys() - after_reset().keys():
         raise ValueError(f"{min(unknown)}: no field to write, allowed are those of docs/registers.md")
-    whole = width = 0
     for field in settings():
-        whole = whole << field.width | _bits(field, values.get(field.name, field.reset)) >> field.lsb
-        width += field.width
-    return np.frombuffer(whole.to_bytes(-(-width // 32) * 4, "little"), "<u4").astype(np.uint32)
+        _bits(field, values.get(field.name, field.reset))
+    return {field.path: values.get(field.name, field.reset) for field in settings()}
 
 
 def unpack(offset: int, word: int) -> dict[str, int]:

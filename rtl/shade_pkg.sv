@@ -1,6 +1,6 @@
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
-// Generated from golden/contract.py and golden/registers.py by `make generate`: change them there.
+// Generated from golden/contract.py, golden/registers.py and golden/types.py by `make generate`: change them there.
 // W: width in bits, F: fraction bits among them. S1.16: sign, 1 integer bit, 16 fraction bits.
 // Latencies are in clocks from an input taken to the output that it causes.
 
@@ -351,143 +351,313 @@ package shade_pkg;
   localparam int REG_KS_B = 288;  // 0x120, rw
   localparam int REG_KS_B_RESET = 65536;  // 0x00010000
 
-  // the settings of a draw call: what can be written, by the names of docs/registers.md
+  // a vector; of a node, before it is normalized, S2.15
   typedef struct packed {
-    logic [0:0] path;
-    logic [0:0] colour;
-    logic [2:0] variant;
-    logic [1:0] fixed_degree;
-    logic [16:0] sharpness;
-    logic [3:0] sharpness_exp;
-    logic [30:0] t1;
-    logic [30:0] t2;
-    logic [30:0] t3;
-    logic signed [17:0] threshold;
-    logic [2:0] model;
-    logic [0:0] cosine;
-    logic [20:0] k1;
-    logic signed [17:0] k2;
-    logic [16:0] xmax;
-    logic [2:0] shift;
-    logic [2:0] power;
-    logic [16:0] inv_n;
-    logic [3:0] inv_n_exp;
-    logic [16:0] gain;
-    logic signed [5:0] gain_exp;
-    logic [16:0] f0;
-    logic signed [17:0] lx;
-    logic signed [17:0] ly;
-    logic signed [17:0] lz;
-    logic signed [17:0] hx;
-    logic signed [17:0] hy;
-    logic signed [17:0] hz;
-    logic [16:0] vh;
-    logic [16:0] ambient_r;
-    logic [16:0] ambient_g;
-    logic [16:0] ambient_b;
-    logic [16:0] kd_r;
-    logic [16:0] kd_g;
-    logic [16:0] kd_b;
-    logic [16:0] ks_r;
-    logic [16:0] ks_g;
-    logic [16:0] ks_b;
+    logic signed [17:0] z;  // S1.16
+    logic signed [17:0] y;  // S1.16
+    logic signed [17:0] x;  // S1.16
+  } vec_t;
+
+  // an interpolated normal, or what it grows by
+  typedef struct packed {
+    logic signed [31:0] z;  // S2.29
+    logic signed [31:0] y;  // S2.29
+    logic signed [31:0] x;  // S2.29
+  } step_t;
+
+  // weights of red, green and blue
+  typedef struct packed {
+    logic [16:0] b;  // U1.16
+    logic [16:0] g;  // U1.16
+    logic [16:0] r;  // U1.16
+  } rgb_t;
+
+  // a span: a triangle's pixels on one raster line, as scan conversion finds them
+  typedef struct packed {
+    logic [12:0] unused_243;  // ignored
+    logic flat;  // the triangle passed P2's criterion: no normalizing in diffuse light
+    logic signed [17:0] cosine;  // S1.16: of the angle between the end normals, for V1 and V2
+    logic [15:0] tag;  // given back with every pixel
+    logic [2:0] unused_205;  // ignored
+    logic [12:0] count;  // pixels, 1 to 4096
+    step_t increment;  // its increment per pixel, the same for all spans of a triangle (P4)
+    step_t normal;  // interpolated normal of the first pixel
+  } span_t;
+
+  // a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet
+  typedef struct packed {
+    logic [2:0] unused_381;  // ignored
+    logic flat;  // the triangle passed P2's criterion: no normalizing in diffuse light
+    logic [11:0] left;  // columns of the box on the left of the reference pixel
+    logic [15:0] tag;  // given back with every pixel
+    logic [2:0] unused_349;  // ignored
+    logic [12:0] lines;  // of the box of all pixels, 1 to 4096
+    logic [2:0] unused_333;  // ignored
+    logic [12:0] columns;  // of the box of all pixels, 1 to 4096
+    logic [3:0] unused_316;  // ignored
+    logic [11:0] line;  // of the reference pixel: the first line of the box
+    logic [3:0] unused_300;  // ignored
+    logic [11:0] column;  // of the reference pixel: the first pixel of the first run
+    step_t dline;  // its increment per line
+    step_t dcolumn;  // its increment per column (P4)
+    step_t normal;  // interpolated normal at the reference pixel
+  } triangle_t;
+
+  // a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle
+  typedef struct packed {
+    logic [18:0] unused_45;  // ignored
+    logic [12:0] count;  // pixels, at least 1; in a triangle's last run also 0
+    logic [3:0] unused_28;  // ignored
+    logic [11:0] line;  // its raster line
+    logic [3:0] unused_12;  // ignored
+    logic [11:0] column;  // its first pixel
+  } run_t;
+
+  // a record, without the light at its nodes
+  typedef struct packed {
+    logic [15:0] tag;  // given back with every pixel
+    logic [1:0] degree;  // DEGREE_*
+    logic more;  // the span goes on in the next record: no tlast after this one
+    logic [12:0] count;  // pixels, 1 to 4096
+  } head_t;
+
+  // light of one channel at the nodes of a record
+  typedef struct packed {
+    logic signed [17:0] n3;  // S1.16
+    logic signed [17:0] n2;  // S1.16
+    logic signed [17:0] n1;  // S1.16
+    logic signed [17:0] n0;  // S1.16
+  } channel_t;
+
+  // a record: the light at the nodes of one polynomial
+  typedef struct packed {
+    logic [15:0] unused_176;  // ignored
+    head_t head;  // a record, without the light at its nodes
+    channel_t specular;  // specular light at its nodes
+    channel_t diffuse;  // diffuse light at its nodes
+  } record_t;
+
+  // a pixel
+  typedef struct packed {
+    logic [15:0] specular;  // U0.16
+    logic [15:0] diffuse;  // U0.16
+  } pixel_t;
+
+  // a coloured pixel
+  typedef struct packed {
+    logic [15:0] blue;  // U0.16
+    logic [15:0] green;  // U0.16
+    logic [15:0] red;  // U0.16
+  } coloured_t;
+
+  // how a span is cut into records
+  typedef struct packed {
+    logic split;  // main is not 0
+    logic [1:0] last_degree;  // its degree
+    logic [3:0] last_log2;  // log2 of the arc that it lies on
+    logic [12:0] last_count;  // pixels of the last record
+    logic [1:0] degree;  // their degree
+    logic [3:0] log2;  // log2 of their pixels
+    logic [12:0] main;  // records before the last one
+  } plan_t;
+
+  // where a node stands in its record
+  typedef struct packed {
+    head_t head;  // the record, taken with its last node
+    logic last;  // the record is complete
+    logic shared;  // first node of a record whose slot 0 is the node before
+    logic [1:0] slot;  // number of the node
+  } place_t;
+
+  // a point where light is computed
+  typedef struct packed {
+    place_t place;  // where a node stands in its record
+    logic flat;  // the normal needs no normalizing
+    vec_t normal;  // its normal
+  } node_t;
+
+  // light at a point
+  typedef struct packed {
+    logic signed [17:0] specular;  // S1.16
+    logic signed [17:0] diffuse;  // S1.16
+  } intensity_t;
+
+  // what can be said of the light at a point
+  typedef struct packed {
+    logic saturated;  // light beyond its format
+    logic zero;  // a denominator of 0: no specular light
+    logic range;  // a cosine outside [-1, 1]
+    logic model;  // a reserved model, or one that was not built in
+  } flags_t;
+
+  // A t^3 + B t^2 + C t + D
+  typedef struct packed {
+    logic signed [24:0] a;  // S8.16
+    logic signed [24:0] b;  // S8.16
+    logic signed [24:0] c;  // S8.16
+    logic signed [17:0] d;  // S1.16
+  } coef_t;
+
+  // the way through the core
+  typedef struct packed {
+    logic [1:0] fixed_degree;  // 0: adaptive, 1 to 3: of every span, as in P1
+    logic [2:0] variant;  // of path 1, VARIANT_*
+    logic colour;  // pixels are 0: diffuse and specular light, 1: weighted red, green, blue
+    logic path;  // 0: polynomials, 1: a unit normal at every pixel
+  } control_t;
+
+  // what the planner goes by
+  typedef struct packed {
+    logic signed [17:0] threshold;  // S1.16: V1, V2, V4, V5: a shorter middle is normalized
+    logic [30:0] t3;  // U11.20: kappa up to which a cubic is enough
+    logic [30:0] t2;  // U11.20: kappa up to which a parabola is enough
+    logic [30:0] t1;  // U11.20: kappa up to which a line is enough
+    logic [3:0] sharpness_exp;  // and exponent, 0 to 12
+    logic [16:0] sharpness;  // U1.16: n of the cos^n that turns as fast as the highlight, mantissa
+  } planner_t;
+
+  // a material
+  typedef struct packed {
+    logic [16:0] f0;  // U1.16: Fresnel's factor at V.H = 1, where it is computed at every node
+    logic signed [5:0] gain_exp;  // S5.0: and exponent
+    logic [16:0] gain;  // U1.16: of specular light, mantissa
+    logic [3:0] inv_n_exp;  // and negative exponent
+    logic [16:0] inv_n;  // U1.16: Schlick: 1/n, mantissa
+    logic [2:0] power;  // squarings of the lobe, 0 to 4; more count as 4
+    logic [2:0] shift;  // x is scaled by 2^shift; 7: not, but k1 and k2 are by 4
+    logic [16:0] xmax;  // U1.16: limit of the scaled x
+    logic signed [17:0] k2;  // S0.17: of the lobe, for the scaled x
+    logic [20:0] k1;  // U1.20: of the lobe, for the scaled x
+    logic cosine;  // specular light is multiplied by N.L
+    logic [2:0] model;  // MODEL_*
+  } material_t;
+
+  // a directional light
+  typedef struct packed {
+    logic [16:0] vh;  // U1.16: V.H
+    vec_t h;  // half way between it and the viewer's
+    vec_t l;  // direction to the light
+  } light_t;
+
+  // the colours of surface and light
+  typedef struct packed {
+    rgb_t ks;  // weight of specular light
+    rgb_t kd;  // weight of diffuse light
+    rgb_t ambient;  // ambient light
+  } colour_t;
+
+  // the settings of a draw call: what can be written, docs/registers.md
+  typedef struct packed {
+    colour_t colour;  // the colours of surface and light
+    light_t light;  // a directional light
+    material_t material;  // a material
+    planner_t planner;  // what the planner goes by
+    control_t control;  // the way through the core
   } draw_t;
-  localparam draw_t DRAW_RESET = {
-    1'd0,  // path
-    1'd0,  // colour
-    3'd0,  // variant
-    2'd0,  // fixed_degree
-    17'd65536,  // sharpness
-    4'd1,  // sharpness_exp
-    31'd49152,  // t1
-    31'd327680,  // t2
-    31'd1048576,  // t3
-    18'd58982,  // threshold
-    3'd0,  // model
-    1'd0,  // cosine
-    21'd0,  // k1
-    18'd0,  // k2
-    17'd0,  // xmax
-    3'd0,  // shift
-    3'd4,  // power
-    17'd0,  // inv_n
-    4'd0,  // inv_n_exp
-    17'd0,  // gain
-    6'd0,  // gain_exp
-    17'd0,  // f0
-    18'd0,  // lx
-    18'd0,  // ly
-    18'd65536,  // lz
-    18'd0,  // hx
-    18'd0,  // hy
-    18'd65536,  // hz
-    17'd65536,  // vh
-    17'd0,  // ambient_r
-    17'd0,  // ambient_g
-    17'd0,  // ambient_b
-    17'd65536,  // kd_r
-    17'd65536,  // kd_g
-    17'd65536,  // kd_b
-    17'd65536,  // ks_r
-    17'd65536,  // ks_g
-    17'd65536  // ks_b
-  };
+
+  // what can be said of a point: its light and its normal
+  typedef struct packed {
+    logic normal_short;  // a normal too short to be brought to length 1
+    logic normal_zero;  // a normal of length 0
+    flags_t light;  // what can be said of the light at a point
+  } node_flags_t;
+
+  // faults of a span
+  typedef struct packed {
+    logic threshold;  // threshold outside [0, 1]
+    logic metric;  // V1, V2: fewer than 3 sectors or more than 12
+    logic packet;  // a packet cut short or too long
+    logic too_long;  // a span of more than 4096 pixels
+    logic empty;  // a span of 0 pixels
+  } errors_t;
 
   // what STATUS remembers
   typedef struct packed {
-    logic [0:0] normal_short;
-    logic [0:0] normal_zero;
-    logic [0:0] light_saturated;
-    logic [0:0] light_zero;
-    logic [0:0] light_range;
-    logic [0:0] light_model;
-    logic [0:0] error_threshold;
-    logic [0:0] error_metric;
-    logic [0:0] error_packet;
-    logic [0:0] error_long;
-    logic [0:0] error_empty;
+    node_flags_t node;  // what can be said of a point: its light and its normal
+    errors_t error;  // faults of a span
   } status_t;
+
+  localparam draw_t DRAW_RESET = {
+    17'd65536,  // colour.ks.b
+    17'd65536,  // colour.ks.g
+    17'd65536,  // colour.ks.r
+    17'd65536,  // colour.kd.b
+    17'd65536,  // colour.kd.g
+    17'd65536,  // colour.kd.r
+    17'd0,  // colour.ambient.b
+    17'd0,  // colour.ambient.g
+    17'd0,  // colour.ambient.r
+    17'd65536,  // light.vh
+    18'd65536,  // light.h.z
+    18'd0,  // light.h.y
+    18'd0,  // light.h.x
+    18'd65536,  // light.l.z
+    18'd0,  // light.l.y
+    18'd0,  // light.l.x
+    17'd0,  // material.f0
+    6'd0,  // material.gain_exp
+    17'd0,  // material.gain
+    4'd0,  // material.inv_n_exp
+    17'd0,  // material.inv_n
+    3'd4,  // material.power
+    3'd0,  // material.shift
+    17'd0,  // material.xmax
+    18'd0,  // material.k2
+    21'd0,  // material.k1
+    1'd0,  // material.cosine
+    3'd0,  // material.model
+    18'd58982,  // planner.threshold
+    31'd1048576,  // planner.t3
+    31'd327680,  // planner.t2
+    31'd49152,  // planner.t1
+    4'd1,  // planner.sharpness_exp
+    17'd65536,  // planner.sharpness
+    2'd0,  // control.fixed_degree
+    3'd0,  // control.variant
+    1'd0,  // control.colour
+    1'd0  // control.path
+  };
 
   // one register of all
   typedef struct packed {
-    logic [0:0] id;
-    logic [0:0] version;
-    logic [0:0] control;
-    logic [0:0] status;
-    logic [0:0] pixels;
-    logic [0:0] spans;
-    logic [0:0] clocks;
-    logic [0:0] stalls;
-    logic [0:0] evaluations;
-    logic [0:0] errors;
-    logic [0:0] sharpness;
-    logic [0:0] t1;
-    logic [0:0] t2;
-    logic [0:0] t3;
-    logic [0:0] threshold;
-    logic [0:0] model;
-    logic [0:0] k1;
-    logic [0:0] k2;
-    logic [0:0] xmax;
-    logic [0:0] inv_n;
-    logic [0:0] gain;
-    logic [0:0] f0;
-    logic [0:0] lx;
-    logic [0:0] ly;
-    logic [0:0] lz;
-    logic [0:0] hx;
-    logic [0:0] hy;
-    logic [0:0] hz;
-    logic [0:0] vh;
-    logic [0:0] ambient_r;
-    logic [0:0] ambient_g;
-    logic [0:0] ambient_b;
-    logic [0:0] kd_r;
-    logic [0:0] kd_g;
-    logic [0:0] kd_b;
-    logic [0:0] ks_r;
-    logic [0:0] ks_g;
-    logic [0:0] ks_b;
+    logic id;
+    logic version;
+    logic control;
+    logic status;
+    logic pixels;
+    logic spans;
+    logic clocks;
+    logic stalls;
+    logic evaluations;
+    logic errors;
+    logic sharpness;
+    logic t1;
+    logic t2;
+    logic t3;
+    logic threshold;
+    logic model;
+    logic k1;
+    logic k2;
+    logic xmax;
+    logic inv_n;
+    logic gain;
+    logic f0;
+    logic lx;
+    logic ly;
+    logic lz;
+    logic hx;
+    logic hy;
+    logic hz;
+    logic vh;
+    logic ambient_r;
+    logic ambient_g;
+    logic ambient_b;
+    logic kd_r;
+    logic kd_g;
+    logic kd_b;
+    logic ks_r;
+    logic ks_g;
+    logic ks_b;
   } select_t;
 
   // the register at an offset; nothing where there is none
@@ -537,140 +707,105 @@ package shade_pkg;
   // the word of the settings that are selected, else 0
   function automatic logic [31:0] draw_word(input draw_t draw, input select_t select);
     draw_word = 32'd0;
-    draw_word[0+:17] |= {17{select[0]}} & draw[0+:17];  // ks_b
-    draw_word[0+:17] |= {17{select[1]}} & draw[17+:17];  // ks_g
-    draw_word[0+:17] |= {17{select[2]}} & draw[34+:17];  // ks_r
-    draw_word[0+:17] |= {17{select[3]}} & draw[51+:17];  // kd_b
-    draw_word[0+:17] |= {17{select[4]}} & draw[68+:17];  // kd_g
-    draw_word[0+:17] |= {17{select[5]}} & draw[85+:17];  // kd_r
-    draw_word[0+:17] |= {17{select[6]}} & draw[102+:17];  // ambient_b
-    draw_word[0+:17] |= {17{select[7]}} & draw[119+:17];  // ambient_g
-    draw_word[0+:17] |= {17{select[8]}} & draw[136+:17];  // ambient_r
-    draw_word[0+:17] |= {17{select[9]}} & draw[153+:17];  // vh
-    draw_word[0+:18] |= {18{select[10]}} & draw[170+:18];  // hz
-    draw_word[0+:18] |= {18{select[11]}} & draw[188+:18];  // hy
-    draw_word[0+:18] |= {18{select[12]}} & draw[206+:18];  // hx
-    draw_word[0+:18] |= {18{select[13]}} & draw[224+:18];  // lz
-    draw_word[0+:18] |= {18{select[14]}} & draw[242+:18];  // ly
-    draw_word[0+:18] |= {18{select[15]}} & draw[260+:18];  // lx
-    draw_word[0+:17] |= {17{select[16]}} & draw[278+:17];  // f0
-    draw_word[0+:17] |= {17{select[17]}} & draw[301+:17];  // gain
-    draw_word[24+:6] |= {6{select[17]}} & draw[295+:6];  // gain_exp
-    draw_word[0+:17] |= {17{select[18]}} & draw[322+:17];  // inv_n
-    draw_word[24+:4] |= {4{select[18]}} & draw[318+:4];  // inv_n_exp
-    draw_word[0+:17] |= {17{select[19]}} & draw[345+:17];  // xmax
-    draw_word[24+:3] |= {3{select[19]}} & draw[342+:3];  // shift
-    draw_word[28+:3] |= {3{select[19]}} & draw[339+:3];  // power
-    draw_word[0+:18] |= {18{select[20]}} & draw[362+:18];  // k2
-    draw_word[0+:21] |= {21{select[21]}} & draw[380+:21];  // k1
-    draw_word[0+:3] |= {3{select[22]}} & draw[402+:3];  // model
-    draw_word[8+:1] |= {1{select[22]}} & draw[401+:1];  // cosine
-    draw_word[0+:18] |= {18{select[23]}} & draw[405+:18];  // threshold
-    draw_word[0+:31] |= {31{select[24]}} & draw[423+:31];  // t3
-    draw_word[0+:31] |= {31{select[25]}} & draw[454+:31];  // t2
-    draw_word[0+:31] |= {31{select[26]}} & draw[485+:31];  // t1
-    draw_word[0+:17] |= {17{select[27]}} & draw[520+:17];  // sharpness
-    draw_word[24+:4] |= {4{select[27]}} & draw[516+:4];  // sharpness_exp
-    draw_word[0+:1] |= {1{select[35]}} & draw[543+:1];  // path
-    draw_word[1+:1] |= {1{select[35]}} & draw[542+:1];  // colour
-    draw_word[4+:3] |= {3{select[35]}} & draw[539+:3];  // variant
-    draw_word[8+:2] |= {2{select[35]}} & draw[537+:2];  // fixed_degree
+    draw_word[0+:1] |= {1{select[35]}} & draw[0+:1];  // path
+    draw_word[1+:1] |= {1{select[35]}} & draw[1+:1];  // colour
+    draw_word[4+:3] |= {3{select[35]}} & draw[2+:3];  // variant
+    draw_word[8+:2] |= {2{select[35]}} & draw[5+:2];  // fixed_degree
+    draw_word[0+:17] |= {17{select[27]}} & draw[7+:17];  // sharpness
+    draw_word[24+:4] |= {4{select[27]}} & draw[24+:4];  // sharpness_exp
+    draw_word[0+:31] |= {31{select[26]}} & draw[28+:31];  // t1
+    draw_word[0+:31] |= {31{select[25]}} & draw[59+:31];  // t2
+    draw_word[0+:31] |= {31{select[24]}} & draw[90+:31];  // t3
+    draw_word[0+:18] |= {18{select[23]}} & draw[121+:18];  // threshold
+    draw_word[0+:3] |= {3{select[22]}} & draw[139+:3];  // model
+    draw_word[8+:1] |= {1{select[22]}} & draw[142+:1];  // cosine
+    draw_word[0+:21] |= {21{select[21]}} & draw[143+:21];  // k1
+    draw_word[0+:18] |= {18{select[20]}} & draw[164+:18];  // k2
+    draw_word[0+:17] |= {17{select[19]}} & draw[182+:17];  // xmax
+    draw_word[24+:3] |= {3{select[19]}} & draw[199+:3];  // shift
+    draw_word[28+:3] |= {3{select[19]}} & draw[202+:3];  // power
+    draw_word[0+:17] |= {17{select[18]}} & draw[205+:17];  // inv_n
+    draw_word[24+:4] |= {4{select[18]}} & draw[222+:4];  // inv_n_exp
+    draw_word[0+:17] |= {17{select[17]}} & draw[226+:17];  // gain
+    draw_word[24+:6] |= {6{select[17]}} & draw[243+:6];  // gain_exp
+    draw_word[0+:17] |= {17{select[16]}} & draw[249+:17];  // f0
+    draw_word[0+:18] |= {18{select[15]}} & draw[266+:18];  // lx
+    draw_word[0+:18] |= {18{select[14]}} & draw[284+:18];  // ly
+    draw_word[0+:18] |= {18{select[13]}} & draw[302+:18];  // lz
+    draw_word[0+:18] |= {18{select[12]}} & draw[320+:18];  // hx
+    draw_word[0+:18] |= {18{select[11]}} & draw[338+:18];  // hy
+    draw_word[0+:18] |= {18{select[10]}} & draw[356+:18];  // hz
+    draw_word[0+:17] |= {17{select[9]}} & draw[374+:17];  // vh
+    draw_word[0+:17] |= {17{select[8]}} & draw[391+:17];  // ambient_r
+    draw_word[0+:17] |= {17{select[7]}} & draw[408+:17];  // ambient_g
+    draw_word[0+:17] |= {17{select[6]}} & draw[425+:17];  // ambient_b
+    draw_word[0+:17] |= {17{select[5]}} & draw[442+:17];  // kd_r
+    draw_word[0+:17] |= {17{select[4]}} & draw[459+:17];  // kd_g
+    draw_word[0+:17] |= {17{select[3]}} & draw[476+:17];  // kd_b
+    draw_word[0+:17] |= {17{select[2]}} & draw[493+:17];  // ks_r
+    draw_word[0+:17] |= {17{select[1]}} & draw[510+:17];  // ks_g
+    draw_word[0+:17] |= {17{select[0]}} & draw[527+:17];  // ks_b
   endfunction
 
   // the settings after a word was written to those that are selected
   function automatic draw_t draw_written(input draw_t draw, input select_t select, input logic [31:0] word);
     draw_written = draw;
-    if (select[0]) draw_written[0+:17] = word[0+:17];  // ks_b
-    if (select[1]) draw_written[17+:17] = word[0+:17];  // ks_g
-    if (select[2]) draw_written[34+:17] = word[0+:17];  // ks_r
-    if (select[3]) draw_written[51+:17] = word[0+:17];  // kd_b
-    if (select[4]) draw_written[68+:17] = word[0+:17];  // kd_g
-    if (select[5]) draw_written[85+:17] = word[0+:17];  // kd_r
-    if (select[6]) draw_written[102+:17] = word[0+:17];  // ambient_b
-    if (select[7]) draw_written[119+:17] = word[0+:17];  // ambient_g
-    if (select[8]) draw_written[136+:17] = word[0+:17];  // ambient_r
-    if (select[9]) draw_written[153+:17] = word[0+:17];  // vh
-    if (select[10]) draw_written[170+:18] = word[0+:18];  // hz
-    if (select[11]) draw_written[188+:18] = word[0+:18];  // hy
-    if (select[12]) draw_written[206+:18] = word[0+:18];  // hx
-    if (select[13]) draw_written[224+:18] = word[0+:18];  // lz
-    if (select[14]) draw_written[242+:18] = word[0+:18];  // ly
-    if (select[15]) draw_written[260+:18] = word[0+:18];  // lx
-    if (select[16]) draw_written[278+:17] = word[0+:17];  // f0
-    if (select[17]) draw_written[301+:17] = word[0+:17];  // gain
-    if (select[17]) draw_written[295+:6] = word[24+:6];  // gain_exp
-    if (select[18]) draw_written[322+:17] = word[0+:17];  // inv_n
-    if (select[18]) draw_written[318+:4] = word[24+:4];  // inv_n_exp
-    if (select[19]) draw_written[345+:17] = word[0+:17];  // xmax
-    if (select[19]) draw_written[342+:3] = word[24+:3];  // shift
-    if (select[19]) draw_written[339+:3] = word[28+:3];  // power
-    if (select[20]) draw_written[362+:18] = word[0+:18];  // k2
-    if (select[21]) draw_written[380+:21] = word[0+:21];  // k1
-    if (select[22]) draw_written[402+:3] = word[0+:3];  // model
-    if (select[22]) draw_written[401+:1] = word[8+:1];  // cosine
-    if (select[23]) draw_written[405+:18] = word[0+:18];  // threshold
-    if (select[24]) draw_written[423+:31] = word[0+:31];  // t3
-    if (select[25]) draw_written[454+:31] = word[0+:31];  // t2
-    if (select[26]) draw_written[485+:31] = word[0+:31];  // t1
-    if (select[27]) draw_written[520+:17] = word[0+:17];  // sharpness
-    if (select[27]) draw_written[516+:4] = word[24+:4];  // sharpness_exp
-    if (select[35]) draw_written[543+:1] = word[0+:1];  // path
-    if (select[35]) draw_written[542+:1] = word[1+:1];  // colour
-    if (select[35]) draw_written[539+:3] = word[4+:3];  // variant
-    if (select[35]) draw_written[537+:2] = word[8+:2];  // fixed_degree
+    if (select[35]) draw_written[0+:1] = word[0+:1];  // path
+    if (select[35]) draw_written[1+:1] = word[1+:1];  // colour
+    if (select[35]) draw_written[2+:3] = word[4+:3];  // variant
+    if (select[35]) draw_written[5+:2] = word[8+:2];  // fixed_degree
+    if (select[27]) draw_written[7+:17] = word[0+:17];  // sharpness
+    if (select[27]) draw_written[24+:4] = word[24+:4];  // sharpness_exp
+    if (select[26]) draw_written[28+:31] = word[0+:31];  // t1
+    if (select[25]) draw_written[59+:31] = word[0+:31];  // t2
+    if (select[24]) draw_written[90+:31] = word[0+:31];  // t3
+    if (select[23]) draw_written[121+:18] = word[0+:18];  // threshold
+    if (select[22]) draw_written[139+:3] = word[0+:3];  // model
+    if (select[22]) draw_written[142+:1] = word[8+:1];  // cosine
+    if (select[21]) draw_written[143+:21] = word[0+:21];  // k1
+    if (select[20]) draw_written[164+:18] = word[0+:18];  // k2
+    if (select[19]) draw_written[182+:17] = word[0+:17];  // xmax
+    if (select[19]) draw_written[199+:3] = word[24+:3];  // shift
+    if (select[19]) draw_written[202+:3] = word[28+:3];  // power
+    if (select[18]) draw_written[205+:17] = word[0+:17];  // inv_n
+    if (select[18]) draw_written[222+:4] = word[24+:4];  // inv_n_exp
+    if (select[17]) draw_written[226+:17] = word[0+:17];  // gain
+    if (select[17]) draw_written[243+:6] = word[24+:6];  // gain_exp
+    if (select[16]) draw_written[249+:17] = word[0+:17];  // f0
+    if (select[15]) draw_written[266+:18] = word[0+:18];  // lx
+    if (select[14]) draw_written[284+:18] = word[0+:18];  // ly
+    if (select[13]) draw_written[302+:18] = word[0+:18];  // lz
+    if (select[12]) draw_written[320+:18] = word[0+:18];  // hx
+    if (select[11]) draw_written[338+:18] = word[0+:18];  // hy
+    if (select[10]) draw_written[356+:18] = word[0+:18];  // hz
+    if (select[9]) draw_written[374+:17] = word[0+:17];  // vh
+    if (select[8]) draw_written[391+:17] = word[0+:17];  // ambient_r
+    if (select[7]) draw_written[408+:17] = word[0+:17];  // ambient_g
+    if (select[6]) draw_written[425+:17] = word[0+:17];  // ambient_b
+    if (select[5]) draw_written[442+:17] = word[0+:17];  // kd_r
+    if (select[4]) draw_written[459+:17] = word[0+:17];  // kd_g
+    if (select[3]) draw_written[476+:17] = word[0+:17];  // kd_b
+    if (select[2]) draw_written[493+:17] = word[0+:17];  // ks_r
+    if (select[1]) draw_written[510+:17] = word[0+:17];  // ks_g
+    if (select[0]) draw_written[527+:17] = word[0+:17];  // ks_b
   endfunction
 
   // the word STATUS
   function automatic logic [31:0] status_word(input logic busy, input status_t status);
     status_word = 32'd0;
     status_word[0] = busy;
-    status_word[25] = status[10];  // normal_short
-    status_word[24] = status[9];  // normal_zero
-    status_word[19] = status[8];  // light_saturated
-    status_word[18] = status[7];  // light_zero
-    status_word[17] = status[6];  // light_range
-    status_word[16] = status[5];  // light_model
-    status_word[12] = status[4];  // error_threshold
-    status_word[11] = status[3];  // error_metric
-    status_word[10] = status[2];  // error_packet
-    status_word[9] = status[1];  // error_long
     status_word[8] = status[0];  // error_empty
+    status_word[9] = status[1];  // error_long
+    status_word[10] = status[2];  // error_packet
+    status_word[11] = status[3];  // error_metric
+    status_word[12] = status[4];  // error_threshold
+    status_word[16] = status[5];  // light_model
+    status_word[17] = status[6];  // light_range
+    status_word[18] = status[7];  // light_zero
+    status_word[19] = status[8];  // light_saturated
+    status_word[24] = status[9];  // normal_zero
+    status_word[25] = status[10];  // normal_short
   endfunction
-
-  // a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet
-  typedef struct packed {
-    logic [2:0] unused_381;
-    logic [0:0] flat;
-    logic [11:0] left;
-    logic [15:0] tag;
-    logic [2:0] unused_349;
-    logic [12:0] lines;
-    logic [2:0] unused_333;
-    logic [12:0] columns;
-    logic [3:0] unused_316;
-    logic [11:0] line;
-    logic [3:0] unused_300;
-    logic [11:0] column;
-    logic signed [31:0] dline_z;
-    logic signed [31:0] dline_y;
-    logic signed [31:0] dline_x;
-    logic signed [31:0] dcolumn_z;
-    logic signed [31:0] dcolumn_y;
-    logic signed [31:0] dcolumn_x;
-    logic signed [31:0] normal_z;
-    logic signed [31:0] normal_y;
-    logic signed [31:0] normal_x;
-  } triangle_t;
-
-  // a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle
-  typedef struct packed {
-    logic [18:0] unused_45;
-    logic [12:0] count;
-    logic [3:0] unused_28;
-    logic [11:0] line;
-    logic [3:0] unused_12;
-    logic [11:0] column;
-  } run_t;
 
 endpackage
 /* verilator lint_on UNUSEDPARAM */

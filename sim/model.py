@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
+from polyshade.golden.types import numbers, words
 from polyshade.sim import verilate
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD
@@ -134,8 +135,37 @@ inline void read_status(DUT& t, uint64_t* status) {{
 """
 
 
-def _bits(port: Port, array: np.ndarray, rows: int) -> np.ndarray:
+def _leaves(port: Port) -> list[Port]:
+    """The numbers that a port takes: itself, or the fields of a structure, by names such as ``n_i.x``."""
+    return [Port(f.name, port.direction, f.width, f.format == "S") for f in port.fields] or [port]
+
+
+def _parts(name: str, leaves: list[Port], value: object) -> dict[str, ArrayLike]:
+    """A structure by the names of its fields: from a mapping, which may be nested, from the fields in a row, or from a
+    single number for all of them."""
+    if not isinstance(value, Mapping):
+        if np.ndim(value) == 0:
+            return dict.fromkeys((leaf.name for leaf in leaves), value)
+        parts = value if isinstance(value, (tuple, list)) else np.moveaxis(np.asarray(value), -1, 0)
+        if len(parts) != len(leaves):
+            names = ", ".join(leaf.name for leaf in leaves)
+            raise UserError(f"{name}: {len(parts)} fields given, needed {len(leaves)}: {names}")
+        return {leaf.name: part for leaf, part in zip(leaves, parts, strict=True)}
+    found: dict[str, ArrayLike] = {}
+    for part, number in value.items():
+        below = [leaf for leaf in leaves if leaf.name.startswith(f"{name}.{part}.")]
+        found |= _parts(f"{name}.{part}", below, number) if below else {f"{name}.{part}": number}
+    return found
+
+
+def _bits(port: Port, arrays: dict[str, np.ndarray], rows: int) -> np.ndarray:
     """Rows as harness.cpp reads them: (rows,) uint64, of a wide port (rows, words) uint32."""
+    if port.fields:
+        array = words(port.fields, [np.broadcast_to(arrays[field.name], rows) for field in port.fields], port.width)
+        if port.width > WORDS_MAX:
+            return np.ascontiguousarray(array)
+        return (array.astype(np.uint64) << np.array([0, 32], np.uint64)[: array.shape[-1]]).sum(-1, np.uint64)
+    array = arrays[port.name]
     array = np.broadcast_to(array, (rows, *array.shape[1:]))
     if port.width > WORDS_MAX:
         return np.ascontiguousarray(array, np.uint32)
@@ -166,6 +196,9 @@ class _Job(ctypes.Structure):
 class Run:
     """What a run gave: every data output as an array attribute of its name, and when.
 
+    ``outputs``: the same arrays by name, of a structure every field, ``outputs["n_o.x"]``; as an attribute ``n_o`` is a
+    mapping of these: ``n_o["x"]``.
+
     ``taken[i]``, ``given[j]``: the clock (0: the first after reset) of input transfer i and of output transfer j;
     ``clocks``: clocks up to and with the last output; ``simulated``: all clocks; ``status``: status outputs at the end;
     ``registers``: words that were read then, by offset.
@@ -184,11 +217,13 @@ class Run:
         self.outputs, self.taken, self.given = outputs, taken, given
         self.clocks, self.simulated, self.status, self.registers = clocks, simulated, status, registers
 
-    def __getattr__(self, name: str) -> np.ndarray:
+    def __getattr__(self, name: str) -> np.ndarray | dict[str, np.ndarray]:
         outputs = self.__dict__.get("outputs", {})  # an object that is being copied has none yet
-        if name not in outputs:
-            raise AttributeError(f"no output {name}, there are {', '.join(outputs)}")
-        return outputs[name]
+        if name in outputs:
+            return outputs[name]
+        if fields := {path.partition(".")[2]: v for path, v in outputs.items() if path.startswith(f"{name}.")}:
+            return fields
+        raise AttributeError(f"no output {name}, there are {', '.join(outputs)}")
 
 
 class Model:
@@ -218,7 +253,9 @@ class Model:
             return f"[{', '.join(map(shown, parts))}]" if parts.ndim else f"{int(parts):#x}"
 
         point = "".join(f", {name}={value}" for name, value in self.parameters.items())
-        given = [f"{name}={shown(value)}" for name, value in inputs.items()]
+        given = [f"{name}={shown(value)}" for name, value in inputs.items() if "." not in name]
+        if dotted := [f'"{name}": {shown(value)}' for name, value in inputs.items() if "." in name]:
+            given.append(f"**{{{', '.join(dotted)}}}")
         if writes:
             given.append(f"writes={{{', '.join(f'{offset:#x}: {word:#x}' for offset, word in writes.items())}}}")
         row = ", ".join(given)
@@ -228,16 +265,21 @@ class Model:
     def _inputs(self, inputs: dict[str, ArrayLike]) -> tuple[int, list[np.ndarray]]:
         """The number of rows, and the inputs, checked, in the order of the ports and as harness.cpp reads them."""
         ports = self.interface.into.data
-        names = [port.name for port in ports]
-        if set(inputs) != set(names):
-            raise UserError(f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {', '.join(names)}")
-        arrays = [self._checked(port, inputs[port.name]) for port in ports]
+        for port in ports:
+            if port.fields and port.name in inputs:
+                inputs = inputs | _parts(port.name, _leaves(port), inputs[port.name])
+                del inputs[port.name]
+        leaves = [leaf for port in ports for leaf in _leaves(port)]
+        if set(inputs) != {leaf.name for leaf in leaves}:
+            needed = ", ".join(leaf.name for leaf in leaves)
+            raise UserError(f"{self.module}: inputs {', '.join(sorted(inputs))} given, needed {needed}")
+        arrays = {leaf.name: self._checked(leaf, inputs[leaf.name]) for leaf in leaves}
         try:
-            (rows,) = np.broadcast_shapes((1,), *(array.shape[:1] for array in arrays))
+            (rows,) = np.broadcast_shapes((1,), *(array.shape[:1] for array in arrays.values()))
         except ValueError:
-            counts = ", ".join(f"{name} {len(array)}" for name, array in zip(names, arrays, strict=True))
+            counts = ", ".join(f"{name} {len(array)}" for name, array in arrays.items())
             raise UserError(f"{self.module}: numbers of rows differ, {counts}") from None
-        return rows, [_bits(port, array, rows) for port, array in zip(ports, arrays, strict=True)]
+        return rows, [_bits(port, arrays, rows) for port in ports]
 
     def _checked(self, port: Port, value: ArrayLike) -> np.ndarray:
         """An input as an array (rows,), for a wide port (rows, words); a single value becomes one row."""
@@ -261,14 +303,14 @@ class Model:
         address = self.interface.address
         if (writes or reads) and not address:
             raise UserError(f"{self.module}: writes or reads given, but it has no registers on s_axil_*")
-        words = [(*map(operator.index, pair),) for pair in (*writes.items(), *((offset, 0) for offset in reads))]
-        for offset, word in words:
+        pairs = [(*map(operator.index, pair),) for pair in (*writes.items(), *((offset, 0) for offset in reads))]
+        for offset, word in pairs:
             if not (0 <= offset < 1 << address.width and 0 <= word < 1 << 32):
                 raise UserError(
                     f"{self.module}: word {word:#x} at offset {offset:#x}, allowed 0 .. 0xffffffff at "
                     f"0 .. {(1 << address.width) - 1:#x}"
                 )
-        return np.array(words, np.uint32).reshape(-1, 2)
+        return np.array(pairs, np.uint32).reshape(-1, 2)
 
     def run(
         self,
@@ -286,10 +328,12 @@ class Model:
         """Stream arrays through the module, one row a transfer.
 
         ``inputs``: an array (rows,) or a number for every data input, by name; of ports of more than 64 bits (rows,
-        words) or (words,) of 32 bits. ``in_gap``, ``out_stall``: probability of a clock without an offer, of one
-        without a consumer, where the module has a valid input, a ready input. ``latency``: of a module without
-        ``valid_o``. The run ends ``drain`` clocks after the last transfer. Where the module has registers on
-        ``s_axil_*``, ``writes``, words by offset, come before the streams, and ``reads``, offsets, after them.
+        words) or (words,) of 32 bits; of structures one for every field, ``**{"n_i.x": x, ...}``, ``n_i={"x": x, ...}``
+        or, lowest bits first, ``n_i=(x, y, z)`` or an array (rows, fields), or a number for all fields.
+        ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer, where the module
+        has a valid input, a ready input. ``latency``: of a module without ``valid_o``. The run ends ``drain`` clocks
+        after the last transfer. Where the module has registers on ``s_axil_*``, ``writes``, words by offset, come
+        before the streams, and ``reads``, offsets, after them.
 
         Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing is taken
         or given for ``patience`` clocks, and when a register answers with an error or not at all.
@@ -336,10 +380,15 @@ class Model:
         face = self.interface
         outputs = {}
         for index, port in enumerate(face.out.data):
-            words = 1 if port.width <= WORDS_MAX else _words(port)
-            value = column(self._library.model_out(session, index), job.given * words)
-            if words > 1:
-                value = value.reshape(-1, words).astype(np.uint32)
+            count = 1 if port.width <= WORDS_MAX else _words(port)
+            value = column(self._library.model_out(session, index), job.given * count)
+            if port.fields:
+                beats = value.reshape(-1, count) if count > 1 else value[:, None] >> np.array([0, 32], np.uint64)
+                beats = beats & np.uint64(0xFFFFFFFF)
+                outputs |= zip((field.name for field in port.fields), numbers(port.fields, beats), strict=True)
+                continue
+            if count > 1:
+                value = value.reshape(-1, count).astype(np.uint32)
             else:
                 value = value.view(np.int64)
                 if port.signed:

@@ -16,9 +16,10 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from polyshade.golden.types import Field
 from polyshade.sim import tools
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, label, modules, sources, yardsticks
@@ -41,12 +42,16 @@ CXX_FLAGS = ["-std=c++17", "-O2", "-fPIC", "-w"]
 
 @dataclass(frozen=True)
 class Port:
-    """A port of a module: its name, direction ``input`` or ``output``, width in bits and signedness."""
+    """A port of a module: its name, direction ``input`` or ``output``, width in bits and signedness.
+
+    ``fields``: of a packed structure those that hold numbers, lowest bits first; their names begin with the port's.
+    """
 
     name: str
     direction: str
     width: int
     signed: bool
+    fields: tuple[Field, ...] = ()
 
 
 def reached(module: str) -> list[Path]:
@@ -144,16 +149,39 @@ def ports(module: str, parameters: dict[str, int], scratch: Path) -> list[Port]:
     for item in top["stmtsp"]:
         if item["type"] == "VAR" and item.get("varType") == "PORT":
             dtype = types[item["dtypep"]]
-            found.append(Port(item["name"], item["direction"].lower(), _bits(dtype, types), bool(dtype.get("signed"))))
+            fields = tuple(_fields(item["name"], 0, dtype, types)) if _struct(dtype, types) else ()
+            signed = bool(dtype.get("signed"))
+            found.append(Port(item["name"], item["direction"].lower(), _bits(dtype, types), signed, fields))
     return found
+
+
+def _struct(dtype: dict, types: dict[str, dict]) -> list[dict]:
+    """The members of a packed structure of Verilator's syntax tree, the highest bits first; none of another type."""
+    if dtype["type"] == "REFDTYPE":
+        return _struct(types[dtype["refDTypep"]], types)
+    return dtype["membersp"] if dtype["type"] == "STRUCTDTYPE" else []
+
+
+def _fields(name: str, lsb: int, dtype: dict, types: dict[str, dict]) -> Iterator[Field]:
+    """The numbers in a type: itself, or those of its members, but for unused bits."""
+    if dtype["type"] == "REFDTYPE":
+        yield from _fields(name, lsb, types[dtype["refDTypep"]], types)
+    elif members := _struct(dtype, types):
+        for member in reversed(members):
+            kind = types[member["dtypep"]]
+            if not member["name"].startswith("unused_"):
+                yield from _fields(f"{name}.{member['name']}", lsb, kind, types)
+            lsb += _bits(kind, types)
+    else:
+        yield Field(name, _bits(dtype, types), "", "S" if dtype.get("signed") else "", lsb)
 
 
 def _bits(dtype: dict, types: dict[str, dict]) -> int:
     """Bits of a type of Verilator's syntax tree: a vector's, or of a packed structure those of its members."""
     if dtype["type"] == "REFDTYPE":
         return _bits(types[dtype["refDTypep"]], types)
-    if dtype["type"] == "STRUCTDTYPE":
-        return sum(_bits(types[member["dtypep"]], types) for member in dtype["membersp"])
+    if members := _struct(dtype, types):
+        return sum(_bits(types[member["dtypep"]], types) for member in members)
     high, low = map(int, dtype.get("range", "0:0").split(":"))
     return high - low + 1
 
@@ -168,7 +196,7 @@ def build(module: str, parameters: dict[str, int], glue, *, waves: bool = False)
     with _once(path) as scratch:
         if scratch:
             found = ports(module, parameters, scratch)
-            (scratch / "ports.json").write_text(json.dumps([vars(port) for port in found]))
+            (scratch / "ports.json").write_text(json.dumps([asdict(port) for port in found]))
             flags = [*VERILATOR_FLAGS, *(["--trace"] if waves else [])]
             _run(
                 [verilator.program, *flags, "--top-module", module, "--Mdir", scratch,
@@ -184,5 +212,7 @@ def build(module: str, parameters: dict[str, int], glue, *, waves: bool = False)
                  "-pthread"],
                 scratch,
             )  # fmt: skip
-    found = [Port(**port) for port in json.loads((path / "ports.json").read_text())]
-    return path / "model.so", found
+    found = json.loads((path / "ports.json").read_text())
+    return path / "model.so", [
+        Port(**port | {"fields": tuple(Field(**field) for field in port["fields"])}) for port in found
+    ]

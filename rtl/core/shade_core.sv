@@ -95,12 +95,12 @@ module shade_core #(
 
   // faults of path normals that do not stop a span: see shade_pixel_normals
   logic normals, metric, threshold;
-  assign normals   = PATH_NORMALS == 1 && draw.path == 1'(shade_pkg::PATH_NORMALS);
+  assign normals   = PATH_NORMALS == 1 && draw.control.path == 1'(shade_pkg::PATH_NORMALS);
   assign metric    = normals && good && (count <= COUNT_W'(shade_pkg::METRIC_M_MIN) ||
                      count > COUNT_W'(shade_pkg::METRIC_M_MAX + 1)) &&
-                     (draw.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V1) ||
-                      draw.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V2));
-  assign threshold = normals && good && (draw.threshold < 0 || draw.threshold > 18'sd65536);
+                     (draw.control.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V1) ||
+                      draw.control.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V2));
+  assign threshold = normals && good && (draw.planner.threshold < 0 || draw.planner.threshold > 18'sd65536);
 
   // what a beat is told by is looked at a clock after it was taken
   logic taken_q, begins_q, whole_q, good_q, few_q, many_q, metric_seen_q, threshold_seen_q;
@@ -225,17 +225,17 @@ module shade_core #(
   always_ff @(posedge clk_i) busy_q <= !rst_i && (|occupied || door_valid_q || spare_valid_q || (take && good));
 
   shade_pkg::status_t events;
-  assign events.error_empty     = empty_q;
-  assign events.error_long      = long_q;
-  assign events.error_packet    = packet_q;
-  assign events.error_metric    = metric_q;
-  assign events.error_threshold = threshold_q;
-  assign events.light_model     = told_q[shade_pkg::LIGHT_MODEL];
-  assign events.light_range     = told_q[shade_pkg::LIGHT_RANGE];
-  assign events.light_zero      = told_q[shade_pkg::LIGHT_ZERO];
-  assign events.light_saturated = told_q[shade_pkg::LIGHT_SATURATED];
-  assign events.normal_zero     = told_q[shade_pkg::LANE_NORMAL_ZERO];
-  assign events.normal_short    = told_q[shade_pkg::LANE_NORMAL_SHORT];
+  assign events.error.empty     = empty_q;
+  assign events.error.too_long     = long_q;
+  assign events.error.packet    = packet_q;
+  assign events.error.metric    = metric_q;
+  assign events.error.threshold = threshold_q;
+  assign events.node.light.model     = told_q[shade_pkg::LIGHT_MODEL];
+  assign events.node.light.range     = told_q[shade_pkg::LIGHT_RANGE];
+  assign events.node.light.zero      = told_q[shade_pkg::LIGHT_ZERO];
+  assign events.node.light.saturated = told_q[shade_pkg::LIGHT_SATURATED];
+  assign events.node.normal_zero     = told_q[shade_pkg::LANE_NORMAL_ZERO];
+  assign events.node.normal_short    = told_q[shade_pkg::LANE_NORMAL_SHORT];
 
   shade_registers u_registers (
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,

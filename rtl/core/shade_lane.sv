@@ -62,7 +62,7 @@ module shade_lane #(
   logic normals, accept, some_place_q, plan_ready;
   logic [SPAN_LOG2:0] place_q, place_d;
   logic span_taken;
-  assign normals = PATH_NORMALS == 1 && draw_i.path == 1'(shade_pkg::PATH_NORMALS);
+  assign normals = PATH_NORMALS == 1 && draw_i.control.path == 1'(shade_pkg::PATH_NORMALS);
   assign accept  = s_axis_span_tvalid && some_place_q && plan_ready && !normals;
   assign place_d = place_q + (SPAN_LOG2 + 1)'(span_taken) - (SPAN_LOG2 + 1)'(accept);
   always_ff @(posedge clk_i) begin
@@ -78,7 +78,7 @@ module shade_lane #(
   logic flat;
   assign count = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
   // P2: only diffuse light can do without unit normals
-  assign flat  = s_axis_span_tdata[shade_pkg::LINE_FLAT] && draw_i.model == '0;
+  assign flat  = s_axis_span_tdata[shade_pkg::LINE_FLAT] && draw_i.material.model == '0;
 
   localparam int SPAN_W = STEPS_W + STEPS_W + 1 + TAG_W;
   logic span_valid, plan_valid, walk_ready, pop;
@@ -100,8 +100,8 @@ module shade_lane #(
     .clk_i, .rst_i, .valid_i(accept), .ready_o(plan_ready), .gx_i(s_axis_span_tdata[STEPS_W+:STEP_W]),
     .gy_i(s_axis_span_tdata[STEPS_W+STEP_W+:STEP_W]), .gz_i(s_axis_span_tdata[STEPS_W+2*STEP_W+:STEP_W]),
     .count_i(count), .flat_i(flat),
-    .t1_i(draw_i.t1), .t2_i(draw_i.t2), .t3_i(draw_i.t3), .mantissa_i(draw_i.sharpness),
-    .exponent_i(draw_i.sharpness_exp), .fixed_degree_i(draw_i.fixed_degree), .valid_o(planned), .main_o(main),
+    .t1_i(draw_i.planner.t1), .t2_i(draw_i.planner.t2), .t3_i(draw_i.planner.t3), .mantissa_i(draw_i.planner.sharpness),
+    .exponent_i(draw_i.planner.sharpness_exp), .fixed_degree_i(draw_i.control.fixed_degree), .valid_o(planned), .main_o(main),
     .log2_o(log2), .degree_o(degree), .last_count_o(last_count), .last_log2_o(last_log2), .last_degree_o(last_degree)
   );
   assign split = main != '0;
@@ -155,7 +155,7 @@ module shade_lane #(
       end
     end
     shade_pixel_normals u_normals (
-      .clk_i, .rst_i, .variant_i(draw_i.variant), .threshold_i(draw_i.threshold),
+      .clk_i, .rst_i, .variant_i(draw_i.control.variant), .threshold_i(draw_i.planner.threshold),
       .s_axis_line_tvalid(s_axis_span_tvalid && normals), .s_axis_line_tready(line_ready),
       .s_axis_line_tdata(s_axis_span_tdata), .m_axis_normal_tvalid(pixel_valid), .m_axis_normal_tready(pixel_ready),
       .m_axis_normal_tdata(data), .m_axis_normal_tuser(pixel_tag), .m_axis_normal_tlast(pixel_last),
@@ -188,11 +188,11 @@ module shade_lane #(
   logic [shade_pkg::LIGHT_FLAGS_W-1:0] light_flags;
   if (FOLD == 1) begin : g_light
     shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
-      .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
-      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .power_i(draw_i.power), .inv_n_i(draw_i.inv_n),
-      .inv_n_exp_i(draw_i.inv_n_exp), .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp),
-      .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz), .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz),
-      .vh_i(draw_i.vh), .valid_i(dark_valid), .nx_i(normal[0+:W]), .ny_i(normal[W+:W]), .nz_i(normal[2*W+:W]),
+      .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1), .k2_i(draw_i.material.k2),
+      .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax), .power_i(draw_i.material.power), .inv_n_i(draw_i.material.inv_n),
+      .inv_n_exp_i(draw_i.material.inv_n_exp), .gain_i(draw_i.material.gain), .gain_exp_i(draw_i.material.gain_exp),
+      .lx_i(draw_i.light.l.x), .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x), .hy_i(draw_i.light.h.y), .hz_i(draw_i.light.h.z),
+      .vh_i(draw_i.light.vh), .valid_i(dark_valid), .nx_i(normal[0+:W]), .ny_i(normal[W+:W]), .nz_i(normal[2*W+:W]),
       .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
     );
     localparam int LATENCY = shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
@@ -210,10 +210,10 @@ module shade_lane #(
       shade_valid #(.DEPTH(WAIT)) u_valid (.clk_i, .rst_i, .valid_i(dark_valid), .valid_o(valid));
     end
     shade_light_folded #(.FORM(FORM)) u_light (
-      .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
-      .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .power_i(draw_i.power), .gain_i(draw_i.gain),
-      .gain_exp_i(draw_i.gain_exp),
-      .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz), .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz),
+      .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1), .k2_i(draw_i.material.k2),
+      .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax), .power_i(draw_i.material.power), .gain_i(draw_i.material.gain),
+      .gain_exp_i(draw_i.material.gain_exp),
+      .lx_i(draw_i.light.l.x), .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x), .hy_i(draw_i.light.h.y), .hz_i(draw_i.light.h.z),
       .valid_i(valid), .ready_o(), .nx_i(n[0+:W]), .ny_i(n[W+:W]), .nz_i(n[2*W+:W]),
       .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
     );

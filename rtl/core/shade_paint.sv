@@ -1,7 +1,7 @@
 // shade_paint: pixels of diffuse and specular light in, coloured pixels out, one a clock.
 //
 //   s_axis_pixel   tdata = {specular, diffuse}, U0.16; tuser = tag; tlast
-//   m_axis_pixel   draw_i.colour = 1: tdata = {blue, green, red}, U0.16, see shade_colour; 0: {0, specular, diffuse}
+//   m_axis_pixel   draw_i.control.colour = 1: tdata = {blue, green, red}, U0.16, see shade_colour; 0: {0, specular, diffuse}
 //   draw_i         ambient_*, kd_*, ks_*, U1.16; must not change while a pixel is inside
 //
 // Six multipliers. The pipeline never stalls: a pixel is taken with a credit for its place in the FIFO behind; no
@@ -49,9 +49,9 @@ module shade_paint #(
     .clk_i, .rst_i, .valid_i(take),
     .diffuse_i({{(W - PIXEL_W) {1'b0}}, s_axis_pixel_tdata[0+:PIXEL_W]}),
     .specular_i({{(W - PIXEL_W) {1'b0}}, s_axis_pixel_tdata[PIXEL_W+:PIXEL_W]}),
-    .ambient_r_i(draw_i.ambient_r), .ambient_g_i(draw_i.ambient_g), .ambient_b_i(draw_i.ambient_b),
-    .kd_r_i(draw_i.kd_r), .kd_g_i(draw_i.kd_g), .kd_b_i(draw_i.kd_b),
-    .ks_r_i(draw_i.ks_r), .ks_g_i(draw_i.ks_g), .ks_b_i(draw_i.ks_b),
+    .ambient_r_i(draw_i.colour.ambient.r), .ambient_g_i(draw_i.colour.ambient.g), .ambient_b_i(draw_i.colour.ambient.b),
+    .kd_r_i(draw_i.colour.kd.r), .kd_g_i(draw_i.colour.kd.g), .kd_b_i(draw_i.colour.kd.b),
+    .ks_r_i(draw_i.colour.ks.r), .ks_g_i(draw_i.colour.ks.g), .ks_b_i(draw_i.colour.ks.b),
     .valid_o(valid), .r_o(colour[0+:PIXEL_W]), .g_o(colour[PIXEL_W+:PIXEL_W]), .b_o(colour[2*PIXEL_W+:PIXEL_W])
   );
   shade_delay #(.WIDTH(1 + TAG_W + DATA_W), .DEPTH(shade_pkg::LATENCY_COLOUR)) u_plain (
@@ -59,7 +59,7 @@ module shade_paint #(
     .q_o({last, tag, plain})
   );
   shade_fifo #(.WIDTH(1 + TAG_W + DATA_W), .LOG2(FIFO_LOG2)) u_fifo (
-    .clk_i, .rst_i, .valid_i(valid), .data_i({last, tag, draw_i.colour ? colour : plain}),
+    .clk_i, .rst_i, .valid_i(valid), .data_i({last, tag, draw_i.control.colour ? colour : plain}),
     .valid_o(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready),
     .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser, m_axis_pixel_tdata}), .taken_o(taken)
   );

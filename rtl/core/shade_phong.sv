@@ -77,11 +77,11 @@ module shade_phong #(
     .zero_o()
   );
   shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
-    .clk_i, .rst_i, .model_i(draw_i.model), .cosine_i(draw_i.cosine), .k1_i(draw_i.k1), .k2_i(draw_i.k2),
-    .shift_i(draw_i.shift), .xmax_i(draw_i.xmax), .power_i(draw_i.power), .inv_n_i(draw_i.inv_n),
-    .inv_n_exp_i(draw_i.inv_n_exp), .gain_i(draw_i.gain), .gain_exp_i(draw_i.gain_exp),
-    .lx_i(draw_i.lx), .ly_i(draw_i.ly), .lz_i(draw_i.lz), .hx_i(draw_i.hx), .hy_i(draw_i.hy), .hz_i(draw_i.hz),
-    .vh_i(draw_i.vh), .valid_i(valid_e), .nx_i(ex), .ny_i(ey), .nz_i(ez), .valid_o(valid_l),
+    .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1), .k2_i(draw_i.material.k2),
+    .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax), .power_i(draw_i.material.power), .inv_n_i(draw_i.material.inv_n),
+    .inv_n_exp_i(draw_i.material.inv_n_exp), .gain_i(draw_i.material.gain), .gain_exp_i(draw_i.material.gain_exp),
+    .lx_i(draw_i.light.l.x), .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x), .hy_i(draw_i.light.h.y), .hz_i(draw_i.light.h.z),
+    .vh_i(draw_i.light.vh), .valid_i(valid_e), .nx_i(ex), .ny_i(ey), .nz_i(ez), .valid_o(valid_l),
     .diffuse_o(diffuse), .specular_o(specular), .flags_o()
   );
 

@@ -1,6 +1,6 @@
 """Write what the RTL takes from the golden model: ``make generate`` (``--check``: compare).
 
-``rtl/shade_pkg.sv`` from ``golden/contract.py`` and ``golden/registers.py``, the table
+``rtl/shade_pkg.sv`` from ``golden/contract.py``, ``golden/registers.py`` and ``golden/types.py``, the table
 ``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``, ``docs/registers.md`` from ``golden/registers.py``,
 ``docs/interface.md`` from ``golden/packets.py`` and the contract.
 """
@@ -10,17 +10,16 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from itertools import accumulate
 from pathlib import Path
 
 from polyshade.golden import contract as k
-from polyshade.golden import fixed, packets, registers
+from polyshade.golden import fixed, packets, registers, types
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = """\
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
-// Generated from golden/contract.py and golden/registers.py by `make generate`: change them there.
+// Generated from golden/contract.py, golden/registers.py and golden/types.py by `make generate`: change them there.
 // W: width in bits, F: fraction bits among them. S1.16: sign, 1 integer bit, 16 fraction bits.
 // Latencies are in clocks from an input taken to the output that it causes.
 
@@ -45,36 +44,62 @@ def package() -> str:
     lines += ["", "  // registers: byte offset, lowest bit of a field, word after reset"]
     for name, (value, comment) in registers.constants().items():
         lines.append(f"  localparam int {name} = {value};{comment and f'  // {comment}'}")
-    lines += _register_file()
-    for name in ("TRIANGLE", "RUN"):
-        packet = packets.PACKETS[name]
-        lines += ["", f"  // {packet.meaning}", *_struct(f"{name.lower()}_t", packets.members(packet))]
+    lines += [*_structs(), *_register_file()]
     return "\n".join(
         [*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", "/* verilator lint_on UNUSEDSIGNAL */", ""]
     )
 
 
+def _structs() -> list[str]:
+    """Every packed structure: the last field comes first, it stands at the top."""
+    lines = []
+    for struct in types.STRUCTS.values():
+        lines += ["", f"  // {struct.meaning}", "  typedef struct packed {"]
+        for field in reversed(struct.placed()):
+            name, told = field.name or f"unused_{field.lsb}", ": ".join(filter(None, (field.format, field.meaning)))
+            sign = "signed " if field.format.startswith("S") else ""
+            bits = f"logic {sign}[{field.width - 1}:0]" if field.width > 1 else "logic"
+            kind = field.struct.name if field.struct else bits
+            lines.append(f"    {kind} {name};{told and f'  // {told}'}")
+        lines.append(f"  }} {struct.name};")
+    return lines
+
+
 def _register_file() -> list[str]:
-    """Settings, what STATUS remembers and which register is meant as structures; their way into words and back.
+    """The settings after reset, which register is meant as a structure; settings and STATUS into words and back.
 
     The functions take structures as vectors: Yosys' own reader does not know the fields of a function's variables.
     """
-    settings, every = list(registers.settings()), list(registers.every())
-    faults = list(registers.faults())[::-1]  # the first one at the bottom, as in the word
+    every, placed = list(registers.every()), {field.path: field for field in registers.settings()}
+    settings = [(placed[leaf.name], leaf.lsb) for leaf in types.DRAW.leaves()]
+    faults = [(field, types.STATUS.leaf(field.path).lsb) for field in registers.faults()]
+    select = {register.name: len(every) - 1 - i for i, register in enumerate(every)}
+    owner = {field.name: register.name for register in every for field in register.fields}
+
+    def each(statement: str) -> list[str]:
+        return [
+            "    "
+            + statement.format(
+                word=f"{field.lsb}+:{field.width}", draw=f"{lsb}+:{field.width}", width=field.width,
+                select=select[owner[field.name]],
+            )
+            + f"  // {field.name}"
+            for field, lsb in settings
+        ]  # fmt: skip
+
+    resets = [f"    {field.width}'d{field.reset}" for field, _ in reversed(settings)]
+    names = [f"  // {field.path}" for field, _ in reversed(settings)]
     return [
         "",
-        "  // the settings of a draw call: what can be written, by the names of docs/registers.md",
-        *_struct("draw_t", settings),
         "  localparam draw_t DRAW_RESET = {",
-        *(f"    {field.width}'d{field.reset},  // {field.name}" for field in settings[:-1]),
-        f"    {settings[-1].width}'d{settings[-1].reset}  // {settings[-1].name}",
+        *(f"{reset},{name}" for reset, name in zip(resets[:-1], names[:-1], strict=True)),
+        f"{resets[-1]}{names[-1]}",
         "  };",
         "",
-        "  // what STATUS remembers",
-        *_struct("status_t", faults),
-        "",
         "  // one register of all",
-        *_struct("select_t", [registers.Field(register.name.lower(), 1, "") for register in every]),
+        "  typedef struct packed {",
+        *(f"    logic {register.name.lower()};" for register in every),
+        "  } select_t;",
         "",
         "  // the register at an offset; nothing where there is none",
         "  function automatic select_t register_at(input logic [11:0] offset);",
@@ -87,52 +112,21 @@ def _register_file() -> list[str]:
         "  // the word of the settings that are selected, else 0",
         "  function automatic logic [31:0] draw_word(input draw_t draw, input select_t select);",
         "    draw_word = 32'd0;",
-        *_each(settings, "draw_word[{word}] |= {{{width}{{select[{select}]}}}} & draw[{draw}];"),
+        *each("draw_word[{word}] |= {{{width}{{select[{select}]}}}} & draw[{draw}];"),
         "  endfunction",
         "",
         "  // the settings after a word was written to those that are selected",
         "  function automatic draw_t draw_written(input draw_t draw, input select_t select, input logic [31:0] word);",
         "    draw_written = draw;",
-        *_each(settings, "if (select[{select}]) draw_written[{draw}] = word[{word}];"),
+        *each("if (select[{select}]) draw_written[{draw}] = word[{word}];"),
         "  endfunction",
         "",
         "  // the word STATUS",
         "  function automatic logic [31:0] status_word(input logic busy, input status_t status);",
         "    status_word = 32'd0;",
         "    status_word[0] = busy;",
-        *(f"    status_word[{field.lsb}] = status[{lsb}];  // {field.name}" for field, lsb in _placed(faults).items()),
+        *(f"    status_word[{field.lsb}] = status[{lsb}];  // {field.name}" for field, lsb in faults),
         "  endfunction",
-    ]
-
-
-def _struct(name: str, fields: list[registers.Field]) -> list[str]:
-    """A packed structure of the fields."""
-    signs = ("signed " if field.format.startswith("S") else "" for field in fields)
-    members = [
-        f"    logic {sign}[{field.width - 1}:0] {field.name};" for sign, field in zip(signs, fields, strict=True)
-    ]
-    return ["  typedef struct packed {", *members, f"  }} {name};"]
-
-
-def _placed(fields: list[registers.Field]) -> dict[registers.Field, int]:
-    """The lowest bit of every field in the packed structure, whose first field is at the top."""
-    ends = accumulate(field.width for field in fields)
-    total = sum(field.width for field in fields)
-    return {field: total - end for field, end in zip(fields, ends, strict=True)}
-
-
-def _each(settings: list[registers.Field], statement: str) -> list[str]:
-    """A statement for every setting: its bits of ``word`` and of ``draw``, the bit that selects its register."""
-    placed = _placed(settings)
-    return [
-        "    "
-        + statement.format(
-            word=f"{field.lsb}+:{field.width}", draw=f"{placed[field]}+:{field.width}", width=field.width, select=select
-        )
-        + f"  // {field.name}"
-        for select, register in enumerate(reversed(list(registers.every())))
-        for field in register.fields
-        if field in placed
     ]
 
 

@@ -14,7 +14,7 @@ from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import core as golden
 from polyshade.golden.material import Material, planner_registers, registers
-from polyshade.golden.registers import pack, pack_draw
+from polyshade.golden.registers import draw, pack
 from polyshade.sim.core import WHOLE, Lines
 from polyshade.sim.errors import UserError
 from polyshade.sim.scene.camera import Camera
@@ -38,7 +38,7 @@ def main(size: int = 1024, tick: Callable[[str], object] = lambda name: None) ->
         exact, _ = golden.phong(lines.n, lines.g, lines.count, words, reflect=0, divide=0)
         tick(f"phong {name}")
         bus = WHOLE | {"writes": pack(words)}
-        clocks = {"phong": _clocks("shade_phong", lines, exact, PLAIN, draw_i=pack_draw(words))}
+        clocks = {"phong": _clocks("shade_phong", lines, exact, PLAIN, draw_i=draw(words))}
         tick(f"core {name}")
         clocks["core"] = _clocks("shade_core", lines, drawn.pixels, CORE, **bus)
         tick(f"core folded {name}")

@@ -1,4 +1,4 @@
-"""What scan conversion found as packets TRIANGLE and RUN of ``golden.packets``."""
+"""What scan conversion found as packets TRIANGLE and RUN, see ``golden.types``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from polyshade.golden import contract as k
-from polyshade.golden.packets import RUN, TRIANGLE, pack
+from polyshade.golden.types import RUN, TRIANGLE, pack
 from polyshade.sim.scene.raster import Spans
 
 Ints = NDArray[np.int64]
@@ -17,7 +17,7 @@ Ints = NDArray[np.int64]
 class Triangles:
     """Triangles (T, ...) and their runs (S,), in order. Normals and increments S2.29.
 
-    A sliver whose increments do not fit, see ``golden.packets.TRIANGLE``, is one triangle for each run.
+    A sliver whose increments do not fit, see ``golden.types.TRIANGLE``, is one triangle for each run.
     """
 
     normal: Ints  # (T, 3) at the reference pixel, the first of the first run
@@ -62,13 +62,13 @@ class Triangles:
     def stream(self) -> dict[str, NDArray]:
         """Packets, beat by beat: ``s_axis_surface_tdata`` and ``_tlast``."""
         vectors = {
-            f"{name}_{axis}": getattr(self, name)[:, i]
+            f"{name}.{axis}": getattr(self, name)[:, i]
             for name in ("normal", "dcolumn", "dline")
             for i, axis in enumerate("xyz")
         }
         box = dict(zip(("column", "line", "columns", "lines", "left"), self.box.T, strict=True))
-        heads = pack(TRIANGLE, **vectors, **box, tag=self.tag, flat=self.flat).view(np.uint64)
-        runs = pack(RUN, column=self.column, line=self.line, count=self.count).view(np.uint64)
+        heads = pack(TRIANGLE, vectors | box | {"tag": self.tag, "flat": self.flat}).view(np.uint64)
+        runs = pack(RUN, {"column": self.column, "line": self.line, "count": self.count}).view(np.uint64)
         at = np.arange(len(runs)) + k.TRIANGLE_BEATS * (self.triangle + 1)  # where the runs are among all beats
         beats = np.zeros(len(runs) + heads.size, np.uint64)
         place = np.ones(len(beats), bool)

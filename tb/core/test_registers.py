@@ -8,6 +8,7 @@ import cocotb
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
 from polyshade.golden import registers
 from polyshade.golden.core import RegisterFile
+from polyshade.golden.types import DRAW
 
 from tb.bench import PRESSURE, Bench, Mismatch, Sink, Source, checked, no_path
 from tb.runner import simulate
@@ -102,9 +103,9 @@ def settings(bench: Bench, file: RegisterFile) -> None:
     for register in ALL:
         values |= registers.unpack(register.offset, file.words[register.name])
     draw = int(bench.dut.draw_o.value)
-    for field in reversed(list(registers.settings())):
-        bench.equal(draw & (1 << field.width) - 1, values[field.name] & (1 << field.width) - 1, field.name, field.width)
-        draw >>= field.width
+    for field in registers.settings():
+        actual, mask = draw >> DRAW.leaf(field.path).lsb, (1 << field.width) - 1
+        bench.equal(actual & mask, values[field.name] & mask, field.name, field.width)
 
 
 def somewhere() -> int:

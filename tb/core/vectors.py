@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from polyshade.golden import contract as k
+from polyshade.golden import types
 from polyshade.golden.fixed import ONE
 from polyshade.golden.material import Material, colour_registers, planner_registers
 from polyshade.golden.normal import pack_lines
-from polyshade.golden.registers import pack_draw
+from polyshade.golden.registers import draw as named
 
 from tb.bench import Bench
 from tb.light.vectors import NAMES, registers
@@ -63,7 +64,7 @@ def settings(bench: Bench, code: int) -> dict[str, int]:
 
 def set_draw(bench: Bench, draw: dict[str, int]) -> None:
     """Drive ``draw_i``."""
-    bench.dut.draw_i.value = whole(pack_draw(draw))
+    bench.dut.draw_i.value = types.whole(types.DRAW, named(draw))[0]
 
 
 def whole(words: np.ndarray) -> int:

@@ -9,6 +9,7 @@ import pytest
 from polyshade.golden import material, registers
 from polyshade.golden.material import MODELS, Material
 from polyshade.golden.plan import THRESHOLDS
+from polyshade.golden.types import DRAW, STATUS, pack, unpack
 from polyshade.scripts.flow import generate
 from polyshade.sim.sources import ROOT
 
@@ -135,15 +136,19 @@ def test_constants_of_the_rtl() -> None:
 
 
 def test_the_structure_of_settings() -> None:
-    """From the top down in the order of the map: what was given, the rest as after reset; refusals are pack's."""
+    """What was given, the rest as after reset, by the names of the structure; refusals are pack's."""
     given = {"path": 1, "gain_exp": -3, "k2": -5, "lx": -65536, "ks_b": 77}
-    words = registers.pack_draw(given)
-    left = sum(int(word) << 32 * i for i, word in enumerate(words))
-    for field in reversed(list(registers.settings())):
-        value = given.get(field.name, field.reset)
-        assert left & (1 << field.width) - 1 == value & (1 << field.width) - 1, field.name
-        left >>= field.width
-    assert left == 0
+    draw = registers.draw(given)
+    assert draw.keys() == {leaf.name for leaf in DRAW.leaves()}
+    back = unpack(DRAW, pack(DRAW, draw))
+    for field in registers.settings():
+        assert int(back[field.path]) == given.get(field.name, field.reset), field.name
     for values, message in (({"clear": 1}, "clear: no field to write"), ({"path": 2}, "path: 2 is out of range")):
         with pytest.raises(ValueError, match=message):
-            registers.pack_draw(values)
+            registers.draw(values)
+
+
+def test_settings_and_faults_are_structures() -> None:
+    """Every leaf of draw_t has a register, every leaf of status_t a bit of STATUS, in its order."""
+    assert sorted(field.path for field in registers.settings()) == sorted(leaf.name for leaf in DRAW.leaves())
+    assert [field.path for field in registers.faults()] == [leaf.name for leaf in STATUS.leaves()]

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from polyshade.golden import contract as k
 from polyshade.golden.poly import pack_spans, span_errors
+from polyshade.golden.types import RECORD
 
 from tb.bench import Bench
 
@@ -70,7 +71,7 @@ def _beats(words: np.ndarray) -> list[int]:
     return [int.from_bytes(row.astype("<u4").tobytes(), "little") for row in words]
 
 
-USED = _beats(pack_spans(np.full((1, k.CHANNELS, k.NODE_COUNT), -1), [-1], [-1], [-1], [1]))[0]
+USED = sum((1 << field.width) - 1 << field.lsb for field in RECORD.leaves())
 """The bits of a beat that have a meaning."""
 
 

@@ -246,6 +246,51 @@ def test_more_outputs_than_inputs(toy: Callable) -> None:
         assert run.status == {"taken_o": 100}
 
 
+PAIR = """
+module shade_pair (
+  input  logic            clk_i,
+  input  shade_pkg::vec_t n_i,
+  input  shade_pkg::plan_t plan_i,
+  output shade_pkg::node_t node_o,
+  output shade_pkg::vec_t n_o
+);
+  always_ff @(posedge clk_i) begin
+    n_o                         <= {n_i.x, n_i.y, n_i.z};
+    node_o                      <= '0;
+    node_o.normal               <= n_i;
+    node_o.place.head.count     <= plan_i.main;
+    node_o.place.last           <= plan_i.split;
+  end
+endmodule
+"""
+
+
+def test_structures(toy: Callable) -> None:
+    """Every field by its name, or in a row, lowest bits first; nested fields by their path."""
+    toy("shade_pair", PAIR)
+    pair = sim.load("shade_pair")
+    n = np.array([[1, -2, 131071], [-131072, 0, 5]])
+    plan = {"main": [4096, 1], "split": [1, 0]} | dict.fromkeys(
+        ("log2", "degree", "last_count", "last_log2", "last_degree"), 0
+    )
+    for given in (n, tuple(n.T), dict(zip("xyz", n.T, strict=True))):
+        run = pair.run(n_i=given, plan_i=plan, latency=1)
+        assert np.array_equal(np.stack([run.n_o[axis] for axis in "zyx"], -1), n)
+        assert np.array_equal(run.outputs["node_o.normal.z"], n[:, 2])
+        assert run.node_o["place.head.count"].tolist() == [4096, 1]
+        assert run.outputs["node_o.place.last"].tolist() == [1, 0]
+    dotted = {f"n_i.{axis}": column for axis, column in zip("xyz", n.T, strict=True)}
+    again = pair.run(**dotted, plan_i=0, latency=1)
+    assert np.array_equal(again.n_o["x"], n[:, 2]) and not again.node_o["place.head.count"].any()
+    for wrong, message in (
+        ((1, 2), "n_i: 2 fields given, needed 3: n_i.x, n_i.y, n_i.z"),
+        ((1, 2, 1 << 17), r"shade_pair.n_i.z: 131072 .. 131072 given, allowed -131072 .. 131071"),
+        ({"x": 0, "w": 0}, "needed n_i.x, n_i.y, n_i.z"),
+    ):
+        with pytest.raises(UserError, match=message):
+            pair.run(n_i=wrong, plan_i=0, latency=1)
+
+
 @pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.5, 0.5)])
 def test_streams_side_by_side(toy: Callable, in_gap: float, out_stall: float) -> None:
     """A row in every clock in which one of them gives something; tvalid tells which."""
@@ -265,7 +310,7 @@ IDLE = dict.fromkeys(
 
 
 def test_registers() -> None:
-    """Written before the first row, read after the last one, in the order given; a structure is a wide port."""
+    """Written before the first row, read after the last one, in the order given; a structure is its fields."""
     file = sim.load("shade_registers")
     words = registers.pack({"gain": 98304, "gain_exp": -1, "ks_b": 5})
     run = file.run(**IDLE | {"pixels_i": [3, 1]}, writes=words, reads=[0x20, *words, 0], drain=0, latency=1)
@@ -273,7 +318,8 @@ def test_registers() -> None:
     assert run.registers[0x20] >= 4
     assert {offset: run.registers[offset] for offset in words} == words
     assert run.registers[0] == registers.ID
-    assert run.draw_o[0].tolist() == registers.pack_draw({"gain": 98304, "gain_exp": -1, "ks_b": 5}).tolist()
+    draw = registers.draw({"gain": 98304, "gain_exp": -1, "ks_b": 5})
+    assert {name: value[0] for name, value in run.draw_o.items()} == draw
     assert run.taken.tolist() == [0, 1]
     assert run.simulated > 5 * len(words) + run.clocks
     assert file.run(**IDLE).registers == {}

@@ -6,7 +6,7 @@ from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import core as golden
 from polyshade.golden.material import Material, registers
-from polyshade.golden.registers import pack_draw
+from polyshade.golden.registers import draw
 from polyshade.sim.core import Lines, compare
 from polyshade.sim.scene.camera import Camera
 from polyshade.sim.scene.mesh import load_mesh
@@ -40,7 +40,7 @@ def test_head(head: Spans, material: Material, parameters: dict[str, int], in_ga
     """Every pixel, tag and end of span; one pixel a clock; NMSE against float64 at most 1e-6."""
     lines, words = Lines.of(head), registers(material, LIGHT)
     run = sim.load("shade_phong", **parameters).run(
-        s_axis_span_tdata=lines.beats, draw_i=pack_draw(words), in_gap=in_gap, out_stall=out_stall, seed=SEED
+        s_axis_span_tdata=lines.beats, draw_i=draw(words), in_gap=in_gap, out_stall=out_stall, seed=SEED
     )
     built = {name.lower(): value for name, value in parameters.items()}
     wanted = golden.Drawn(*golden.phong(lines.n, lines.g, lines.count, words, **built), np.zeros(0, int), 0)

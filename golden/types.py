@@ -1,0 +1,419 @@
+"""Packed structures: what travels together on wires, in FIFOs and in packets; the one source for RTL and Python.
+
+``make generate`` writes them into ``rtl/shade_pkg.sv`` as ``typedef struct packed``; :func:`pack` and :func:`unpack`
+make the same bits from arrays. The first field stands at the bottom: x below y below z. A field may be a structure
+itself; its parts are named with dots, ``span.normal.x``, here as in SystemVerilog.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import contract as k
+from .fixed import Int
+
+
+@dataclass(frozen=True)
+class Field:
+    """Bits of a register, a packet or a structure. ``format``: S and U numbers, or "" for a code or a count.
+
+    ``lsb``: the lowest of its bits. ``struct``: what it consists of. ``path``: the leaf of ``draw_t`` or ``status_t``
+    that a register's field is.
+    """
+
+    name: str
+    width: int
+    meaning: str
+    format: str = ""
+    lsb: int = 0
+    reset: int = 0
+    struct: Struct | None = None
+    path: str = ""
+
+    @property
+    def range(self) -> tuple[int, int]:
+        """The least and the largest value that the bits can hold."""
+        half = 1 << self.width - 1
+        return (-half, half - 1) if self.format.startswith("S") else (0, 2 * half - 1)
+
+    @property
+    def bits(self) -> str:
+        """As in documentation: "16:0", or "3" for a single one."""
+        return f"{self.lsb + self.width - 1}:{self.lsb}" if self.width > 1 else f"{self.lsb}"
+
+
+@dataclass(frozen=True)
+class Struct:
+    """A packed structure, ``shade_pkg::<name>``; its fields from the lowest bits up.
+
+    A field without a name is unused.
+    """
+
+    name: str
+    meaning: str
+    fields: tuple[Field, ...]
+
+    @property
+    def width(self) -> int:
+        """Bits of all fields."""
+        return sum(field.width for field in self.fields)
+
+    def placed(self) -> tuple[Field, ...]:
+        """The fields with ``lsb`` as it is in this structure."""
+        lsb, found = 0, []
+        for field in self.fields:
+            found.append(replace(field, lsb=lsb))
+            lsb += field.width
+        return tuple(found)
+
+    def leaves(self) -> Iterator[Field]:
+        """The fields that hold numbers, from the lowest bits up, with names such as ``normal.x``.
+
+        >>> [(field.name, field.lsb) for field in RECORD.leaves()][3:6]
+        [('diffuse.n3', 54), ('specular.n0', 72), ('specular.n1', 90)]
+        """
+        for field in self.placed():
+            if field.struct:
+                for leaf in field.struct.leaves():
+                    meaning = leaf.meaning or f"{field.meaning}, {leaf.name}"
+                    yield replace(leaf, name=f"{field.name}.{leaf.name}", lsb=field.lsb + leaf.lsb, meaning=meaning)
+            elif field.name:
+                yield field
+
+    def leaf(self, name: str) -> Field:
+        """One of them by name."""
+        return next(field for field in self.leaves() if field.name == name)
+
+
+def pack(struct: Struct, values: Mapping[str, ArrayLike]) -> NDArray[np.uint32]:
+    """Structures as words of 32 bits (..., words), least significant first: a beat of a stream.
+
+    ``values``: a number or an array (...) for every leaf, by name. ValueError for a leaf that is missing or unknown,
+    and for a value that its bits cannot hold.
+
+    >>> pack(VEC, {"x": [1, -1], "y": 0, "z": 0}).tolist()
+    [[1, 0], [262143, 0]]
+    """
+    leaves = list(struct.leaves())
+    if wrong := values.keys() ^ {field.name for field in leaves}:
+        raise ValueError(f"{struct.name}: {min(wrong)}, needed {', '.join(field.name for field in leaves)}")
+    for field in leaves:
+        array, (low, high) = np.asarray(values[field.name]), field.range
+        if array.size and (array.min() < low or array.max() > high):
+            raise ValueError(
+                f"{struct.name}: {field.name}: {array.min()} .. {array.max()} given, allowed {low} .. {high}"
+            )
+    return words(leaves, [values[field.name] for field in leaves], struct.width)
+
+
+def unpack(struct: Struct, beats: ArrayLike) -> dict[str, Int]:
+    """The leaves by name, arrays (...), from words (..., words).
+
+    >>> int(unpack(VEC, [262143, 0])["x"])
+    -1
+    """
+    return dict(zip((field.name for field in struct.leaves()), numbers(struct.leaves(), beats), strict=True))
+
+
+def whole(struct: Struct, values: Mapping[str, ArrayLike]) -> list[int]:
+    """As :func:`pack`, each structure as one integer of Python, for test benches.
+
+    >>> whole(VEC, {"x": [1], "y": [0], "z": [-1]})[0] == 1 + (2**18 - 1 << 36)
+    True
+    """
+    beats = np.atleast_2d(pack(struct, values))
+    return [int.from_bytes(beat.astype("<u4").tobytes(), "little") for beat in beats]
+
+
+def words(fields: Iterator[Field] | list[Field], values: list[ArrayLike], width: int) -> NDArray[np.uint32]:
+    """Numbers at ``field.lsb`` of a vector of ``width`` bits, as words (..., words); a field has at most 62 bits."""
+    arrays = np.broadcast_arrays(*(np.asarray(value, np.int64) for value in values))
+    count = -(-width // 32)
+    found = np.zeros((count + 2, *arrays[0].shape), np.uint64)
+    for field, value in zip(fields, arrays, strict=True):
+        word, shift = divmod(field.lsb, 32)
+        bits = value.view(np.uint64) & np.uint64((1 << field.width) - 1)
+        for i, part in enumerate((bits & np.uint64(0xFFFFFFFF), bits >> np.uint64(32))):
+            part = part << np.uint64(shift)
+            found[word + i] |= part & np.uint64(0xFFFFFFFF)
+            found[word + i + 1] |= part >> np.uint64(32)
+    return np.ascontiguousarray(np.moveaxis(found[:count], 0, -1), np.uint32)
+
+
+def numbers(fields: Iterator[Field] | list[Field], beats: ArrayLike) -> Iterator[Int]:
+    """The other way round."""
+    beats = np.asarray(beats).astype(np.uint64)
+    beats = np.concatenate([beats, np.zeros((*beats.shape[:-1], 2), np.uint64)], -1)
+    for field in fields:
+        word, shift = divmod(field.lsb, 32)
+        value = beats[..., word] >> np.uint64(shift) | beats[..., word + 1] << np.uint64(32 - shift)
+        if shift:
+            value = value | beats[..., word + 2] << np.uint64(64 - shift)
+        rest = 64 - field.width
+        value = np.asarray(value << np.uint64(rest)).view(np.int64) >> rest
+        yield value if field.format.startswith("S") else value & (1 << field.width) - 1
+
+
+# ---- the table ---------------------------------------------------------------------------------------------------
+
+
+def _part(name: str, struct: Struct, meaning: str = "") -> Field:
+    return Field(name, struct.width, meaning or struct.meaning, struct=struct)
+
+
+def _unused(width: int) -> Field:
+    return Field("", width, "ignored")
+
+
+def _vector(name: str, meaning: str, width: int, format: str, names: Iterable[str] = "xyz") -> Struct:
+    return Struct(name, meaning, tuple(Field(part, width, "", format) for part in names))
+
+
+VEC = _vector("vec_t", "a vector; of a node, before it is normalized, S2.15", k.INTENSITY_W, "S1.16")
+STEP = _vector("step_t", "an interpolated normal, or what it grows by", k.STEP_W, "S2.29")
+RGB = _vector("rgb_t", "weights of red, green and blue", k.PIXEL_W + 1, "U1.16", "rgb")
+
+# ---- packets
+
+SPAN = Struct(
+    "span_t",
+    "a span: a triangle's pixels on one raster line, as scan conversion finds them",
+    (
+        _part("normal", STEP, "interpolated normal of the first pixel"),
+        _part("increment", STEP, "its increment per pixel, the same for all spans of a triangle (P4)"),
+        Field("count", k.COUNT_W, f"pixels, 1 to {k.PIXELS_MAX}"),
+        _unused(16 - k.COUNT_W),
+        Field("tag", k.TAG_W, "given back with every pixel"),
+        Field("cosine", k.INTENSITY_W, "of the angle between the end normals, for V1 and V2", "S1.16"),
+        Field("flat", 1, "the triangle passed P2's criterion: no normalizing in diffuse light"),
+        _unused(31 - k.INTENSITY_W),
+    ),
+)
+HEAD = Struct(
+    "head_t",
+    "a record, without the light at its nodes",
+    (
+        Field("count", k.COUNT_W, f"pixels, 1 to {k.PIXELS_MAX}"),
+        Field("more", 1, "the span goes on in the next record: no tlast after this one"),
+        Field("degree", k.DEGREE_W, "DEGREE_*"),
+        Field("tag", k.TAG_W, "given back with every pixel"),
+    ),
+)
+CHANNEL = Struct(
+    "channel_t",
+    "light of one channel at the nodes of a record",
+    tuple(Field(f"n{i}", k.INTENSITY_W, "", "S1.16") for i in range(k.NODE_COUNT)),
+)
+RECORD = Struct(
+    "record_t",
+    "a record: the light at the nodes of one polynomial",
+    (
+        _part("diffuse", CHANNEL, "diffuse light at its nodes"),
+        _part("specular", CHANNEL, "specular light at its nodes"),
+        _part("head", HEAD),
+        _unused(16),
+    ),
+)
+TRIANGLE = Struct(
+    "triangle_t",
+    "a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet",
+    (
+        _part("normal", STEP, "interpolated normal at the reference pixel"),
+        _part("dcolumn", STEP, "its increment per column (P4)"),
+        _part("dline", STEP, "its increment per line"),
+        Field("column", k.PLACE_W, "of the reference pixel: the first pixel of the first run"),
+        _unused(16 - k.PLACE_W),
+        Field("line", k.PLACE_W, "of the reference pixel: the first line of the box"),
+        _unused(16 - k.PLACE_W),
+        Field("columns", k.COUNT_W, "of the box of all pixels, 1 to 4096"),
+        _unused(16 - k.COUNT_W),
+        Field("lines", k.COUNT_W, "of the box of all pixels, 1 to 4096"),
+        _unused(16 - k.COUNT_W),
+        Field("tag", k.TAG_W, "given back with every pixel"),
+        Field("left", k.PLACE_W, "columns of the box on the left of the reference pixel"),
+        Field("flat", 1, "the triangle passed P2's criterion: no normalizing in diffuse light"),
+        _unused(15 - k.PLACE_W),
+    ),
+)
+"""``dcolumn`` 2^kx and ``dline`` 2^ky are within [-2, 2), where 2^kx, at least 1, is the largest power of two that is
+less than ``columns``, and 2^ky likewise of ``lines``. Slivers that do not fit are sent as one triangle for each run:
+``lines`` is then 1 and ``dline`` 0. With one column ``dcolumn`` is 0."""
+RUN = Struct(
+    "run_t",
+    "a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle",
+    (
+        Field("column", k.PLACE_W, "its first pixel"),
+        _unused(16 - k.PLACE_W),
+        Field("line", k.PLACE_W, "its raster line"),
+        _unused(16 - k.PLACE_W),
+        Field("count", k.COUNT_W, "pixels, at least 1; in a triangle's last run also 0"),
+        _unused(32 - k.COUNT_W),
+    ),
+)
+PIXEL = _vector("pixel_t", "a pixel", k.PIXEL_W, "U0.16", ("diffuse", "specular"))
+COLOURED = _vector("coloured_t", "a coloured pixel", k.PIXEL_W, "U0.16", ("red", "green", "blue"))
+
+# ---- from a span to its pixels
+
+PLAN = Struct(
+    "plan_t",
+    "how a span is cut into records",
+    (
+        Field("main", k.COUNT_W, "records before the last one"),
+        Field("log2", k.LOG2_W, "log2 of their pixels"),
+        Field("degree", k.DEGREE_W, "their degree"),
+        Field("last_count", k.COUNT_W, "pixels of the last record"),
+        Field("last_log2", k.LOG2_W, "log2 of the arc that it lies on"),
+        Field("last_degree", k.DEGREE_W, "its degree"),
+        Field("split", 1, "main is not 0"),
+    ),
+)
+PLACE = Struct(
+    "place_t",
+    "where a node stands in its record",
+    (
+        Field("slot", 2, "number of the node"),
+        Field("shared", 1, "first node of a record whose slot 0 is the node before"),
+        Field("last", 1, "the record is complete"),
+        _part("head", HEAD, "the record, taken with its last node"),
+    ),
+)
+NODE = Struct(
+    "node_t",
+    "a point where light is computed",
+    (
+        _part("normal", VEC, "its normal"),
+        Field("flat", 1, "the normal needs no normalizing"),
+        _part("place", PLACE),
+    ),
+)
+INTENSITY = _vector("intensity_t", "light at a point", k.INTENSITY_W, "S1.16", ("diffuse", "specular"))
+FLAGS = Struct(
+    "flags_t",
+    "what can be said of the light at a point",
+    (
+        Field("model", 1, "a reserved model, or one that was not built in"),
+        Field("range", 1, "a cosine outside [-1, 1]"),
+        Field("zero", 1, "a denominator of 0: no specular light"),
+        Field("saturated", 1, "light beyond its format"),
+    ),
+)
+COEF = Struct(
+    "coef_t",
+    "A t^3 + B t^2 + C t + D",
+    (
+        Field("d", k.INTENSITY_W, "", "S1.16"),
+        *(Field(name, k.COEF_W, "", f"S{k.COEF_W - k.INTENSITY_F - 1}.16") for name in "cba"),
+    ),
+)
+
+# ---- settings and status
+
+CONTROL = Struct(
+    "control_t",
+    "the way through the core",
+    (
+        Field("path", 1, "0: polynomials, 1: a unit normal at every pixel"),
+        Field("colour", 1, "pixels are 0: diffuse and specular light, 1: weighted red, green, blue"),
+        Field("variant", k.VARIANT_W, "of path 1, VARIANT_*"),
+        Field("fixed_degree", k.DEGREE_W, "0: adaptive, 1 to 3: of every span, as in P1"),
+    ),
+)
+PLANNER = Struct(
+    "planner_t",
+    "what the planner goes by",
+    (
+        Field("sharpness", k.SHARPNESS_F + 1, "n of the cos^n that turns as fast as the highlight, mantissa", "U1.16"),
+        Field("sharpness_exp", k.SHARPNESS_EXP_W, "and exponent, 0 to 12"),
+        Field("t1", k.KAPPA_W, "kappa up to which a line is enough", "U11.20"),
+        Field("t2", k.KAPPA_W, "kappa up to which a parabola is enough", "U11.20"),
+        Field("t3", k.KAPPA_W, "kappa up to which a cubic is enough", "U11.20"),
+        Field("threshold", k.INTENSITY_W, "V1, V2, V4, V5: a shorter middle is normalized", "S1.16"),
+    ),
+)
+MATERIAL = Struct(
+    "material_t",
+    "a material",
+    (
+        Field("model", k.MODEL_W, "MODEL_*"),
+        Field("cosine", 1, "specular light is multiplied by N.L"),
+        Field("k1", k.LOBE_K1_W, "of the lobe, for the scaled x", "U1.20"),
+        Field("k2", k.LOBE_K2_W, "of the lobe, for the scaled x", "S0.17"),
+        Field("xmax", k.LOBE_X_F + 1, "limit of the scaled x", "U1.16"),
+        Field(
+            "shift",
+            k.LOBE_SHIFT_W,
+            f"x is scaled by 2^shift; {k.LOBE_FINE}: not, but k1 and k2 are by {1 << k.LOBE_FINE_F}",
+        ),
+        Field("power", k.LOBE_POWER_W, "squarings of the lobe, 0 to 4; more count as 4"),
+        Field("inv_n", k.INTENSITY_F + 1, "Schlick: 1/n, mantissa", "U1.16"),
+        Field("inv_n_exp", k.INV_EXP_W, "and negative exponent"),
+        Field("gain", k.GAIN_F + 1, "of specular light, mantissa", "U1.16"),
+        Field("gain_exp", k.GAIN_EXP_W, "and exponent", "S5.0"),
+        Field("f0", k.INTENSITY_F + 1, "Fresnel's factor at V.H = 1, where it is computed at every node", "U1.16"),
+    ),
+)  # fmt: skip
+LIGHT = Struct(
+    "light_t",
+    "a directional light",
+    (
+        _part("l", VEC, "direction to the light"),
+        _part("h", VEC, "half way between it and the viewer's"),
+        Field("vh", k.INTENSITY_F + 1, "V.H", "U1.16"),
+    ),
+)
+COLOUR = Struct(
+    "colour_t",
+    "the colours of surface and light",
+    (
+        _part("ambient", RGB, "ambient light"),
+        _part("kd", RGB, "weight of diffuse light"),
+        _part("ks", RGB, "weight of specular light"),
+    ),
+)
+DRAW = Struct(
+    "draw_t",
+    "the settings of a draw call: what can be written, docs/registers.md",
+    (
+        _part("control", CONTROL),
+        _part("planner", PLANNER),
+        _part("material", MATERIAL),
+        _part("light", LIGHT),
+        _part("colour", COLOUR),
+    ),
+)
+NODE_FLAGS = Struct(
+    "node_flags_t",
+    "what can be said of a point: its light and its normal",
+    (
+        _part("light", FLAGS),
+        Field("normal_zero", 1, "a normal of length 0"),
+        Field("normal_short", 1, "a normal too short to be brought to length 1"),
+    ),
+)
+ERRORS = Struct(
+    "errors_t",
+    "faults of a span",
+    (
+        Field("empty", 1, "a span of 0 pixels"),
+        Field("too_long", 1, f"a span of more than {k.PIXELS_MAX} pixels"),
+        Field("packet", 1, "a packet cut short or too long"),
+        Field("metric", 1, "V1, V2: fewer than 3 sectors or more than 12"),
+        Field("threshold", 1, "threshold outside [0, 1]"),
+    ),
+)
+STATUS = Struct(
+    "status_t", "what STATUS remembers", (_part("error", ERRORS), _part("node", NODE_FLAGS)),
+)  # fmt: skip
+
+STRUCTS: dict[str, Struct] = {
+    struct.name: struct
+    for struct in (
+        VEC, STEP, RGB, SPAN, TRIANGLE, RUN, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE, INTENSITY,
+        FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW, NODE_FLAGS, ERRORS, STATUS,
+    )
+}  # fmt: skip

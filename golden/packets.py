@@ -1,6 +1,6 @@
 """The packets of the streams as data: the one source for ``docs/interface.md``; their fields are those of ``types``.
 
-One packet is one beat of an AXI4-Stream, but for a triangle, which is six, followed by its runs. ``types.pack`` makes
+One packet is one beat of an AXI4-Stream, but for a triangle, which is four, followed by its runs. ``types.pack`` makes
 beats, ``golden.normal.pack_lines`` and ``golden.poly.pack_spans`` for lines and spans.
 """
 
@@ -35,11 +35,11 @@ PACKETS = {
     "LINE": Packet("s_axis_span of shade_core, s_axis_line of shade_pixel_normals", k.LINE_DATA_W, SPAN),
     "SPAN": Packet("s_axis_span of shade_poly_span", k.SPAN_DATA_W, RECORD),
     "TRIANGLE": Packet(
-        "s_axis_surface of shade_direct and of the patches, m_axis_surface of shade_raster, first six beats",
+        "s_axis_surface of shade_direct and of the patches, m_axis_surface of shade_raster, first four beats",
         k.TRIANGLE_DATA_W,
         TRIANGLE,
     ),
-    "RUN": Packet("the same stream, all other beats of a packet; tlast comes with the last run", k.RUN_DATA_W, RUN),
+    "RUN": Packet("the same stream, all other beats of a packet; tlast comes with the last run", k.SURFACE_DATA_W, RUN),
     "PIXEL": Packet(
         "m_axis_pixel of shade_core (COLOUR = 0 or CONTROL.colour = 0), shade_phong, shade_poly_span; tuser is the "
         "span's tag, tlast its last pixel",

@@ -218,30 +218,36 @@ RECORD = Struct(
         _unused(16),
     ),
 )
+GROWTH = Struct(
+    "growth_t",
+    "what an interpolated normal grows by from pixel to pixel, or from line to line",
+    (
+        _part("mantissa", VEC, "increment times 2^exp"),
+        Field("exp", k.TRIANGLE_EXP_W, "as large as it fits, so that no bit is lost"),
+        _unused(10 - k.TRIANGLE_EXP_W),
+    ),
+)
 TRIANGLE = Struct(
     "triangle_t",
     "a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet",
     (
-        _part("normal", STEP, "interpolated normal at the reference pixel"),
-        _part("dcolumn", STEP, "its increment per column (P4)"),
-        _part("dline", STEP, "its increment per line"),
-        Field("column", k.PLACE_W, "of the reference pixel: the first pixel of the first run"),
-        _unused(16 - k.PLACE_W),
-        Field("line", k.PLACE_W, "of the reference pixel: the first line of the box"),
-        _unused(16 - k.PLACE_W),
         Field("columns", k.COUNT_W, "of the box of all pixels, 1 to 4096"),
         _unused(16 - k.COUNT_W),
         Field("lines", k.COUNT_W, "of the box of all pixels, 1 to 4096"),
         _unused(16 - k.COUNT_W),
-        Field("tag", k.TAG_W, "given back with every pixel"),
         Field("left", k.PLACE_W, "columns of the box on the left of the reference pixel"),
         Field("flat", 1, "the triangle passed P2's criterion: no normalizing in diffuse light"),
         _unused(15 - k.PLACE_W),
+        Field("tag", k.TAG_W, "given back with every pixel"),
+        _part("normal", VEC, "interpolated normal at the reference pixel: the first one of the first run"),
+        _unused(10),
+        _part("dcolumn", GROWTH, "its increment per column (P4)"),
+        _part("dline", GROWTH, "its increment per line"),
     ),
 )
-"""``dcolumn`` 2^kx and ``dline`` 2^ky are within [-2, 2), where 2^kx, at least 1, is the largest power of two that is
-less than ``columns``, and 2^ky likewise of ``lines``. Slivers that do not fit are sent as one triangle for each run:
-``lines`` is then 1 and ``dline`` 0. With one column ``dcolumn`` is 0."""
+"""A sliver is sent as one triangle for each run where an increment, times the largest power of two below the size of
+the box (at least 1), is not within [-2, 2): far pixels would be wrong. With one column ``dcolumn`` is 0, with one line
+``dline``."""
 RUN = Struct(
     "run_t",
     "a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle",
@@ -413,7 +419,7 @@ STATUS = Struct(
 STRUCTS: dict[str, Struct] = {
     struct.name: struct
     for struct in (
-        VEC, STEP, RGB, SPAN, TRIANGLE, RUN, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE, INTENSITY,
-        FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW, NODE_FLAGS, ERRORS, STATUS,
+        VEC, STEP, RGB, SPAN, GROWTH, TRIANGLE, RUN, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE,
+        INTENSITY, FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW, NODE_FLAGS, ERRORS, STATUS,
     )
 }  # fmt: skip

@@ -167,20 +167,10 @@ package shade_pkg;
   localparam int LINE_TAG_LSB = 208;
   localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
   localparam int LINE_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
-  localparam int SURFACE_DATA_W = 64;  // a packet: a triangle in six beats, least significant first, then its runs, tlast with the last
-  localparam int TRIANGLE_BEATS = 6;
-  localparam int TRIANGLE_DATA_W = 384;  // words of 32 bits: normal, increment per column, per line, x, y, z each, S2.29; then the box
-  localparam int TRIANGLE_COLUMN_LSB = 288;  // reference pixel: the first pixel of the first run
-  localparam int TRIANGLE_LINE_LSB = 304;
-  localparam int TRIANGLE_COLUMNS_LSB = 320;  // size of the box of all pixels
-  localparam int TRIANGLE_LINES_LSB = 336;
-  localparam int TRIANGLE_TAG_LSB = 352;  // given back with every pixel
-  localparam int TRIANGLE_LEFT_LSB = 368;  // columns of the box to the left of the reference pixel
-  localparam int TRIANGLE_FLAT = 380;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
-  localparam int RUN_DATA_W = 64;  // a run of pixels on one raster line of the triangle
-  localparam int RUN_COLUMN_LSB = 0;  // its first pixel
-  localparam int RUN_LINE_LSB = 16;
-  localparam int RUN_COUNT_LSB = 32;  // its pixels
+  localparam int SURFACE_DATA_W = 64;  // a packet: a triangle in four beats, then its runs, a beat each, tlast with the last
+  localparam int TRIANGLE_BEATS = 4;  // box; normal; increment per column; increment per line
+  localparam int TRIANGLE_DATA_W = 256;  // the first beat in the lowest bits
+  localparam int TRIANGLE_EXP_W = 4;  // of an increment: 2^0 to 2^15
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
   localparam int COLOUR_DATA_W = 48;  // red in the low third, then green, blue
@@ -384,23 +374,27 @@ package shade_pkg;
     step_t normal;  // interpolated normal of the first pixel
   } span_t;
 
+  // what an interpolated normal grows by from pixel to pixel, or from line to line
+  typedef struct packed {
+    logic [5:0] unused_58;  // ignored
+    logic [3:0] exp;  // as large as it fits, so that no bit is lost
+    vec_t mantissa;  // increment times 2^exp
+  } growth_t;
+
   // a triangle: its interpolated normal is a linear function of column and line; its runs follow in the same packet
   typedef struct packed {
-    logic [2:0] unused_381;  // ignored
+    growth_t dline;  // its increment per line
+    growth_t dcolumn;  // its increment per column (P4)
+    logic [9:0] unused_118;  // ignored
+    vec_t normal;  // interpolated normal at the reference pixel: the first one of the first run
+    logic [15:0] tag;  // given back with every pixel
+    logic [2:0] unused_45;  // ignored
     logic flat;  // the triangle passed P2's criterion: no normalizing in diffuse light
     logic [11:0] left;  // columns of the box on the left of the reference pixel
-    logic [15:0] tag;  // given back with every pixel
-    logic [2:0] unused_349;  // ignored
+    logic [2:0] unused_29;  // ignored
     logic [12:0] lines;  // of the box of all pixels, 1 to 4096
-    logic [2:0] unused_333;  // ignored
+    logic [2:0] unused_13;  // ignored
     logic [12:0] columns;  // of the box of all pixels, 1 to 4096
-    logic [3:0] unused_316;  // ignored
-    logic [11:0] line;  // of the reference pixel: the first line of the box
-    logic [3:0] unused_300;  // ignored
-    logic [11:0] column;  // of the reference pixel: the first pixel of the first run
-    step_t dline;  // its increment per line
-    step_t dcolumn;  // its increment per column (P4)
-    step_t normal;  // interpolated normal at the reference pixel
   } triangle_t;
 
   // a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle

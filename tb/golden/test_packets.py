@@ -52,10 +52,6 @@ def test_where_the_constants_say() -> None:
     assert [found["SPAN"][f"head.{n}"] for n in ("count", "more", "degree", "tag")] == [
         k.SPAN_COUNT_LSB, k.SPAN_MORE, k.SPAN_DEGREE_LSB, k.SPAN_TAG_LSB,
     ]  # fmt: skip
-    assert [found["TRIANGLE"][n] for n in ("column", "line", "columns", "lines", "tag", "left", "flat")] == [
-        k.TRIANGLE_COLUMN_LSB, k.TRIANGLE_LINE_LSB, k.TRIANGLE_COLUMNS_LSB, k.TRIANGLE_LINES_LSB, k.TRIANGLE_TAG_LSB,
-        k.TRIANGLE_LEFT_LSB, k.TRIANGLE_FLAT,
-    ]  # fmt: skip
-    assert [found["RUN"][n] for n in ("column", "line", "count")] == [
-        k.RUN_COLUMN_LSB, k.RUN_LINE_LSB, k.RUN_COUNT_LSB,
-    ]  # fmt: skip
+    beats = {"columns": 0, "normal.x": 1, "dcolumn.mantissa.x": 2, "dline.mantissa.x": 3}
+    assert {name: found["TRIANGLE"][name] for name in beats} == {n: 64 * beat for n, beat in beats.items()}
+    assert [found["RUN"][n] for n in ("column", "line", "count")] == [0, 16, 32]

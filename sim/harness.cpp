@@ -2,7 +2,7 @@
 //
 // Included behind a generated part (sim/model.py) that defines
 //   DUT, CLOCKED, OUT_VALID, OUT_PORTS, STATUS_PORTS   the module's class and what it has
-//   set_clock, set_reset, set_in_valid, set_out_ready  drive a port, if it is there
+//   set_clock, set_reset, set_phase, set_in_valid, set_out_ready  drive a port, if it is there
 //   in_ready, out_valid                                read one; true where there is none
 //   drive, collect, read_status                        a row of inputs, of outputs, the status
 //   AXIL                                               1: the module has registers on s_axil_*
@@ -11,6 +11,7 @@
 //   registers         are written after reset, before the streams, and read when these are drained
 //   CLOCKED = false   combinational: a row is evaluated at once
 //   input             transfers when it is offered and in_ready
+//   phase             counts 0 to `pace` - 1 from reset on; where the module has one, an input is taken in phase 0
 //   output            transfers when valid and ready; without OUT_VALID a row leaves `latency` clocks after it entered
 
 #include <cstdint>
@@ -111,7 +112,7 @@ struct Job {
     uint64_t rows;
     const void* const* in;
     uint32_t in_gap, out_stall;  // probabilities in 1/65536 a clock
-    uint64_t seed, latency, drain, patience;
+    uint64_t seed, latency, pace, drain, patience;
     const char* waves;
     uint32_t (*words)[2];  // offset and word, of registers to write, then of those to read
     uint64_t writes, reads;
@@ -154,6 +155,7 @@ int model_run(Job* job, void** session) {
         if (job->rows) drive(*s->top, job->in, 0);  // settings among the inputs
         rest(*s->top);
         set_reset(*s->top, 1);
+        set_phase(*s->top, 0);
         set_in_valid(*s->top, 0);
         set_out_ready(*s->top, 0);
         for (int i = 0; i < 3; i++) {
@@ -165,7 +167,9 @@ int model_run(Job* job, void** session) {
         set_reset(*s->top, 0);
         result = accesses(*s, *job, true, job->writes);
         for (; !result; clock++) {
+            const uint64_t phase = clock % job->pace;
             set_clock(*s->top, 0);
+            set_phase(*s->top, phase);
             if (!offer && next < job->rows && !(job->in_gap && random.chance(job->in_gap))) {
                 drive(*s->top, job->in, next);
                 offer = true;
@@ -175,14 +179,15 @@ int model_run(Job* job, void** session) {
             set_out_ready(*s->top, ready);
             s->eval();
 
-            const bool take = offer && in_ready(*s->top);
-            const bool valid = OUT_VALID ? out_valid(*s->top)
-                                         : clock >= job->latency && clock - job->latency < job->rows;
+            const bool take = offer && in_ready(*s->top) && !phase;
+            const size_t due = s->given.size();
             if (take) {
                 s->taken.push_back(clock);
                 next++;
                 offer = false;
             }
+            const bool valid = OUT_VALID ? out_valid(*s->top)
+                                         : due < s->taken.size() && s->taken[due] + job->latency == clock;
             const bool give = valid && ready;
             if (give) {
                 s->given.push_back(clock);
@@ -193,7 +198,7 @@ int model_run(Job* job, void** session) {
 
             set_clock(*s->top, 1);
             s->eval();
-            if (next >= job->rows && !valid && quiet >= job->drain) break;
+            if (next >= job->rows && !valid && quiet >= job->drain && (OUT_VALID || due == job->rows)) break;
             if (quiet >= job->patience + job->drain) {
                 result = 1;
                 break;
@@ -216,5 +221,15 @@ const uint64_t* model_given(void* session) { return static_cast<Session*>(sessio
 uint64_t model_taken_rows(void* session) { return static_cast<Session*>(session)->taken.size(); }
 const uint64_t* model_status(void* session) { return static_cast<Session*>(session)->status; }
 void model_free(void* session) { delete static_cast<Session*>(session); }
+
+// The bare module, for whoever brings a main loop of his own: cocotb, through tb/Vtop.h
+void* dut_new(const char* name) { return new DUT{name}; }
+void dut_delete(void* dut) { delete static_cast<DUT*>(dut); }
+void dut_eval_step(void* dut) { static_cast<DUT*>(dut)->eval_step(); }
+void dut_eval_end_step(void* dut) { static_cast<DUT*>(dut)->eval_end_step(); }
+void dut_final(void* dut) { static_cast<DUT*>(dut)->final(); }
+#if WAVES
+void dut_trace(void* dut, VerilatedVcdC* to, int levels) { static_cast<DUT*>(dut)->trace(to, levels); }
+#endif
 
 }  // extern "C"

@@ -49,6 +49,7 @@ class Interface:
 
     clock: bool
     reset: bool
+    phase: bool
     into: Channel
     out: Channel
     status: list[Port]
@@ -66,7 +67,7 @@ def interface(ports: list[Port]) -> Interface:
     address = next((port for port in ports if port.name == "s_axil_awaddr"), None)
     ports = [port for port in ports if not port.name.startswith("s_axil_")]
     names = {port.name for port in ports}
-    handshakes = {"clk_i", "rst_i", "valid_i", "ready_i", "valid_o", "ready_o"}
+    handshakes = {"clk_i", "rst_i", "phase_i", "valid_i", "ready_i", "valid_o", "ready_o"}
 
     def channel(direction: str, prefix: str, valid: str, ready: str) -> tuple[Channel, list[Port]]:
         own = [port for port in ports if port.direction == direction and port.name not in handshakes]
@@ -83,7 +84,7 @@ def interface(ports: list[Port]) -> Interface:
     into, settings = channel("input", "s", "valid_i", "ready_o")
     into = replace(into, data=into.data + settings)
     out, status = channel("output", "m", "valid_o", "ready_i")
-    return Interface("clk_i" in names, "rst_i" in names, into, out, status, address)
+    return Interface("clk_i" in names, "rst_i" in names, "phase_i" in names, into, out, status, address)
 
 
 def _words(port: Port) -> int:
@@ -91,7 +92,7 @@ def _words(port: Port) -> int:
     return -(-port.width // 32)
 
 
-def _glue(ports: list[Port]) -> str:
+def glue(ports: list[Port]) -> str:
     """The C++ that knows the names of the ports; what it must define is listed in harness.cpp."""
     face = interface(ports)
 
@@ -123,6 +124,7 @@ constexpr bool CLOCKED = {str(face.clock).lower()}, OUT_VALID = {str(face.out.va
 constexpr int OUT_PORTS = {len(face.out.data)}, STATUS_PORTS = {len(face.status)};
 namespace {{
 {setter("set_clock", "clk_i" if face.clock else None)}{setter("set_reset", "rst_i" if face.reset else None)}\
+void set_phase(DUT& t, uint64_t v) {{ {"t.phase_i = v;" if face.phase else "(void)t; (void)v;"} }}
 {setter("set_in_valid", face.into.valid)}{getter("in_ready", face.into.ready)}\
 {getter("out_valid", face.out.valid)}{setter("set_out_ready", face.out.ready, face.out.streams)}\
 inline void drive(DUT& t, const void* const* in, uint64_t row) {{
@@ -180,6 +182,7 @@ class _Job(ctypes.Structure):
         ("out_stall", ctypes.c_uint32),
         ("seed", ctypes.c_uint64),
         ("latency", ctypes.c_uint64),
+        ("pace", ctypes.c_uint64),
         ("drain", ctypes.c_uint64),
         ("patience", ctypes.c_uint64),
         ("waves", ctypes.c_char_p),
@@ -229,8 +232,8 @@ class Run:
 class Model:
     """A module at a parameter point. Every :meth:`run` starts from reset; what reset leaves alone is random."""
 
-    def __init__(self, module: str, parameters: dict[str, int], *, waves: bool):
-        library, self.ports = verilate.build(module, parameters, _glue, waves=waves)
+    def __init__(self, module: str, parameters: dict[str, int], *, waves: bool, public: tuple[str, ...] | None = None):
+        library, self.ports = verilate.build(module, parameters, glue, waves=waves, public=public)
         self.module, self.parameters, self.waves = module, parameters, waves
         self.interface = interface(self.ports)
         self._library = ctypes.CDLL(str(library))
@@ -319,6 +322,7 @@ class Model:
         out_stall: float = 0.0,
         seed: int = 1,
         latency: int = 0,
+        pace: int = 1,
         drain: int = 256,
         patience: int = 100_000,
         writes: Mapping[int, int] | None = None,
@@ -331,9 +335,10 @@ class Model:
         words) or (words,) of 32 bits; of structures one for every field, ``**{"n_i.x": x, ...}``, ``n_i={"x": x, ...}``
         or, lowest bits first, ``n_i=(x, y, z)`` or an array (rows, fields), or a number for all fields.
         ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer, where the module
-        has a valid input, a ready input. ``latency``: of a module without ``valid_o``. The run ends ``drain`` clocks
-        after the last transfer. Where the module has registers on ``s_axil_*``, ``writes``, words by offset, come
-        before the streams, and ``reads``, offsets, after them.
+        has a valid input, a ready input. ``latency``: of a module without ``valid_o``. ``pace``: clocks a row of a
+        module with ``phase_i``, which counts 0 to ``pace`` - 1; a row is taken in phase 0. The run ends ``drain``
+        clocks after the last transfer. Where the module has registers on ``s_axil_*``, ``writes``, words by offset,
+        come before the streams, and ``reads``, offsets, after them.
 
         Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing is taken
         or given for ``patience`` clocks, and when a register answers with an error or not at all.
@@ -352,7 +357,7 @@ class Model:
             waves.parent.mkdir(parents=True, exist_ok=True)
         job = _Job(
             rows, ctypes.cast(pointers, ctypes.c_void_p), int(in_gap * 65536), int(out_stall * 65536), seed,
-            latency, drain, patience, str(waves).encode(), accesses.ctypes.data, len(writes), len(reads),
+            latency, pace, drain, patience, str(waves).encode(), accesses.ctypes.data, len(writes), len(reads),
         )  # fmt: skip
         session = ctypes.c_void_p()
         stopped = self._library.model_run(ctypes.byref(job), ctypes.byref(session))
@@ -405,10 +410,11 @@ class Model:
 _loaded: dict[object, Model] = {}
 
 
-def load(module: str, *, waves: bool | None = None, **parameters: int) -> Model:
+def load(module: str, *, waves: bool | None = None, public: tuple[str, ...] | None = None, **parameters: int) -> Model:
     """The Verilated model of a module at a parameter point, compiled when first asked for.
 
-    ``waves`` (default: the environment's ``WAVES=1``) writes ``build/waves/<module>.vcd`` during a run.
+    ``waves`` (default: the environment's ``WAVES=1``) writes ``build/waves/<module>.vcd`` during a run. ``public``: see
+    ``sim.verilate.build``; with ``()`` the model is the one that cocotb drives.
     Raises UserError for an unknown module or tool, and in the words of the module for a parameter that it refuses.
     """
     for name, value in parameters.items():
@@ -417,7 +423,7 @@ def load(module: str, *, waves: bool | None = None, **parameters: int) -> Model:
         except TypeError:
             raise UserError(f"{module}: {name}={value!r}, allowed integers") from None
     waves = os.environ.get("WAVES", "0") not in ("", "0") if waves is None else waves
-    key = (module, tuple(sorted(parameters.items())), waves)
+    key = (module, tuple(sorted(parameters.items())), waves, public)
     if key not in _loaded:
-        _loaded[key] = Model(module, parameters, waves=waves)
+        _loaded[key] = Model(module, parameters, waves=waves, public=public)
     return _loaded[key]

@@ -15,7 +15,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -69,7 +69,7 @@ def reached(module: str) -> list[Path]:
     return [path for path in listed if path.stem in names or path.stem.endswith("_pkg")]
 
 
-def _run(command: list[str | Path], directory: Path) -> None:
+def run(command: list[str | Path], directory: Path) -> None:
     done = subprocess.run(
         command,
         cwd=directory,
@@ -83,7 +83,7 @@ def _run(command: list[str | Path], directory: Path) -> None:
 
 
 @contextlib.contextmanager
-def _once(path: Path) -> Iterator[Path | None]:
+def once(path: Path) -> Iterator[Path | None]:
     """A scratch folder that becomes ``path`` when the block ends well; None if it is there already. Process-safe."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with open(path.with_suffix(".lock"), "w") as lock:
@@ -99,23 +99,35 @@ def _once(path: Path) -> Iterator[Path | None]:
             shutil.rmtree(scratch, ignore_errors=True)
 
 
-def _key(*parts: object) -> str:
+def key_of(*parts: object) -> str:
     return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
 
-def _include(root: Path) -> list[str]:
+def include(root: Path) -> list[str]:
     return [f"-I{root / 'include'}", f"-I{root / 'include' / 'vltstd'}"]
 
 
-def _runtime(waves: bool) -> Path:
-    """Verilator's own C++, compiled: a folder of object files."""
+# What the C++ of every model begins with; compiled once, it is three quarters of a small model's compilation.
+PRECOMPILED = """\
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+#include "verilated.h"
+#include "verilated_sym_props.h"
+"""
+
+
+def runtime(waves: bool) -> Path:
+    """Verilator's own C++, compiled: a folder of object files, and model.h with its precompiled form."""
     verilator = tools.verilator()
-    path = CACHE / f"runtime-{_key(str(verilator.root), verilator.version, CXX_FLAGS, waves)}"
-    with _once(path) as scratch:
+    path = CACHE / f"runtime-{key_of(str(verilator.root), verilator.version, CXX_FLAGS, PRECOMPILED, waves)}"
+    with once(path) as scratch:
         if scratch:
-            names = ["verilated", "verilated_threads", *(["verilated_vcd_c"] if waves else [])]
+            names = ["verilated", "verilated_threads", "verilated_vpi", *(["verilated_vcd_c"] if waves else [])]
             units = [verilator.root / "include" / f"{name}.cpp" for name in names]
-            _run(["g++", *CXX_FLAGS, *_include(verilator.root), "-c", *units], scratch)
+            run(["g++", *CXX_FLAGS, *include(verilator.root), "-c", *units], scratch)
+            (scratch / "model.h").write_text(PRECOMPILED)
+            run(["g++", *CXX_FLAGS, *include(verilator.root), "-x", "c++-header", "model.h"], scratch)
     return path
 
 
@@ -127,15 +139,15 @@ def _cause(module: str, log: str) -> str:
     return log.strip().splitlines()[-1]
 
 
-def ports(module: str, parameters: dict[str, int], scratch: Path) -> list[Port]:
-    """The ports of a module at a parameter point, in the order of its header, from Verilator's syntax tree.
+def ports(module: str, parameters: dict[str, int], scratch: Path) -> tuple[list[Port], list[str]]:
+    """The ports of a module at a parameter point, in the order of its header, and the names of its parameters.
 
     Raises UserError with the cause when the module refuses its parameters or does not elaborate.
     """
     tree = scratch / "tree.json"
     arguments = [*(f"-G{name}={value}" for name, value in parameters.items()), "--top-module", module]
     try:
-        _run(
+        run(
             [tools.verilator().program, "--json-only", "--json-only-output", tree, "--json-only-meta-output",
              scratch / "meta.json", "--no-timing", *arguments, *reached(module)],
             scratch,
@@ -146,13 +158,14 @@ def ports(module: str, parameters: dict[str, int], scratch: Path) -> list[Port]:
     types = {t["addr"]: t for t in netlist["miscsp"][0]["typesp"]}
     top = next(m for m in netlist["modulesp"] if m["name"] == module)
     found = []
-    for item in top["stmtsp"]:
-        if item["type"] == "VAR" and item.get("varType") == "PORT":
+    variables = [item for item in top["stmtsp"] if item["type"] == "VAR"]
+    for item in variables:
+        if item.get("varType") == "PORT":
             dtype = types[item["dtypep"]]
             fields = tuple(_fields(item["name"], 0, dtype, types)) if _struct(dtype, types) else ()
             signed = bool(dtype.get("signed"))
             found.append(Port(item["name"], item["direction"].lower(), _bits(dtype, types), signed, fields))
-    return found
+    return found, [item["name"] for item in variables if item.get("varType") == "GPARAM"]
 
 
 def _struct(dtype: dict, types: dict[str, dict]) -> list[dict]:
@@ -182,23 +195,45 @@ def _bits(dtype: dict, types: dict[str, dict]) -> int:
         return _bits(types[dtype["refDTypep"]], types)
     if members := _struct(dtype, types):
         return sum(_bits(types[member["dtypep"]], types) for member in members)
+    if "declRange" in dtype:  # a packed array
+        high, low = map(int, dtype["declRange"].strip("[]").split(":"))
+        return (high - low + 1) * _bits(types[dtype["refDTypep"]], types)
+    if "refDTypep" in dtype:  # an enumeration
+        return _bits(types[dtype["refDTypep"]], types)
     high, low = map(int, dtype.get("range", "0:0").split(":"))
     return high - low + 1
 
 
-def build(module: str, parameters: dict[str, int], glue, *, waves: bool = False) -> tuple[Path, list[Port]]:
-    """The shared library of a module and its ports. ``glue(ports)`` gives the C++ that knows their names."""
+def _public(module: str, ports: list[Port], names: Sequence[str]) -> str:
+    """Verilator's configuration that shows ports and other signals to cocotb."""
+    ways = {"input": "rw", "output": "rd"}
+    shown = [(port.name, ways[port.direction]) for port in ports] + [(name, "rw") for name in names]
+    lines = [f'public_flat_{way} -module "{module}" -var "{name}"' for name, way in shown]
+    return "\n".join(["`verilator_config", *lines, ""])
+
+
+def build(
+    module: str, parameters: dict[str, int], glue, *, waves: bool = False, public: Sequence[str] | None = None
+) -> tuple[Path, list[Port]]:
+    """The shared library of a module and its ports. ``glue(ports)`` gives the C++ that knows their names.
+
+    ``public``: cocotb can drive the model, too: its ports and parameters, and inner signals of these names (``*_q``).
+    That makes small models up to a sixth slower.
+    """
     verilator = tools.verilator()
     files = reached(module)
     own = [(HERE / "harness.cpp").read_bytes(), (HERE / "model.py").read_bytes(), Path(__file__).read_bytes()]
-    key = _key(parameters, [path.read_bytes() for path in files], own, verilator.version, waves)
+    key = key_of(parameters, [path.read_bytes() for path in files], own, verilator.version, waves, public)
     path = CACHE / f"{module}-{key}"
-    with _once(path) as scratch:
+    with once(path) as scratch:
         if scratch:
-            found = ports(module, parameters, scratch)
+            found, names = ports(module, parameters, scratch)
             (scratch / "ports.json").write_text(json.dumps([asdict(port) for port in found]))
             flags = [*VERILATOR_FLAGS, *(["--trace"] if waves else [])]
-            _run(
+            if public is not None:
+                flags += ["--vpi", "public.vlt"]
+                (scratch / "public.vlt").write_text(_public(module, found, [*names, *public]))
+            run(
                 [verilator.program, *flags, "--top-module", module, "--Mdir", scratch,
                  *(f"-G{name}={value}" for name, value in parameters.items()), *files],
                 scratch,
@@ -206,10 +241,10 @@ def build(module: str, parameters: dict[str, int], glue, *, waves: bool = False)
             units = "".join(f'#include "{unit.name}"\n' for unit in sorted(scratch.glob("Vdut*.cpp")))
             harness = f'#include "{HERE / "harness.cpp"}"\n'
             (scratch / "all.cpp").write_text(f"#define WAVES {int(waves)}\n{units}{glue(found)}{harness}")
-            objects = sorted(_runtime(waves).glob("*.o"))
-            _run(
-                ["g++", *CXX_FLAGS, *_include(verilator.root), "-shared", "-o", "model.so", "all.cpp", *objects,
-                 "-pthread"],
+            common = runtime(waves)
+            run(
+                ["g++", *CXX_FLAGS, *include(verilator.root), "-include", common / "model.h", "-shared",
+                 "-o", "model.so", "all.cpp", *sorted(common.glob("*.o")), "-pthread"],
                 scratch,
             )  # fmt: skip
     found = json.loads((path / "ports.json").read_text())

@@ -21,7 +21,7 @@ LATENCY = 5  # from an address, or the data if later, to the response
 
 
 def test_cocotb():
-    simulate("shade_registers", {})
+    simulate("shade_registers", {}, public=("*_q",))
 
 
 def quiet(bench: Bench, busy: int = 0) -> None:

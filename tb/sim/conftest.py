@@ -12,8 +12,8 @@ from polyshade.sim import model, sources, verilate
 @pytest.fixture
 def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty cache of models, in which Verilator's own part is there already."""
-    runtimes = {waves: verilate._runtime(waves) for waves in (False,)}
-    monkeypatch.setattr(verilate, "_runtime", lambda waves: runtimes[waves])
+    runtimes = {waves: verilate.runtime(waves) for waves in (False,)}
+    monkeypatch.setattr(verilate, "runtime", lambda waves: runtimes[waves])
     monkeypatch.setattr(verilate, "CACHE", tmp_path / "cache")
     monkeypatch.setattr(model, "_loaded", {})
     return tmp_path / "cache"
@@ -22,13 +22,13 @@ def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def compiled(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The programs that were run to compile models."""
-    programs, run = [], verilate._run
+    programs, run = [], verilate.run
 
     def record(command: list[str | Path], directory: Path) -> None:
         programs.append(Path(command[0]).name)
         run(command, directory)
 
-    monkeypatch.setattr(verilate, "_run", record)
+    monkeypatch.setattr(verilate, "run", record)
     return programs
 
 

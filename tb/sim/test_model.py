@@ -629,6 +629,28 @@ def test_interface() -> None:
     assert [p.name for p in stream.status] == ["error_o"]
 
 
+PACED = """
+module shade_paced (input logic clk_i, input logic [1:0] phase_i, input logic [1:0][8:0] x_i, output logic [17:0] y_o);
+  logic [17:0] one_q, two_q;
+  always_ff @(posedge clk_i) begin
+    if (phase_i == 2'd0) one_q <= x_i;
+    two_q <= one_q;
+  end
+  assign y_o = two_q;
+endmodule
+"""
+
+
+def test_phase(toy: Callable) -> None:
+    """A row in every third clock, in phase 0; its result in one clock, fixed latency. A packed array is one number."""
+    toy("shade_paced", PACED)
+    x = RNG.integers(0, 1 << 18, 50)
+    run = sim.load("shade_paced").run(x_i=x, latency=2, pace=3)
+    assert np.array_equal(run.y_o, x)
+    assert np.array_equal(run.taken, 3 * np.arange(50))
+    assert np.array_equal(run.given, run.taken + 2)
+
+
 # ---- compiling ---------------------------------------------------------------------------------------------------
 
 
@@ -662,7 +684,7 @@ def test_what_fails_to_compile_leaves_nothing(fresh: Path, toy: Callable, monkey
     toy("shade_wrong", "module shade_wrong (input logic x_i, output logic y_o);\n  assign y_o = z_i;\nendmodule\n")
     refused(lambda: sim.load("shade_wrong"), "shade_wrong.sv:2:")
     toy("shade_adder", ADDER)
-    monkeypatch.setattr(model, "_glue", lambda ports: "#error no glue\n")
+    monkeypatch.setattr(model, "glue", lambda ports: "#error no glue\n")
     with pytest.raises(RuntimeError, match="no glue"):
         sim.load("shade_adder")
     assert [path for path in fresh.iterdir() if path.is_dir()] == []
@@ -674,11 +696,11 @@ import sys
 from pathlib import Path
 from polyshade.sim import model, verilate
 
-runs, run = [], verilate._run
-runtime = verilate._runtime(False)
-verilate._runtime = lambda waves: runtime
+runs, run = [], verilate.run
+runtime = verilate.runtime(False)
+verilate.runtime = lambda waves: runtime
 verilate.CACHE = Path(sys.argv[1])
-verilate._run = lambda *given: runs.append(given) or run(*given)
+verilate.run = lambda *given: runs.append(given) or run(*given)
 third = model.load("shade_third", WIDTH=5)
 print(len(runs), third.run(x_i=range(-16, 16)).y_o.tolist())
 """

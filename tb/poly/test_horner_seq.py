@@ -15,7 +15,7 @@ from tb.runner import points, simulate
 
 @points({}, {"COEF_W": 10, "D_W": 6, "T_F": 4})
 def test_cocotb(point):
-    simulate("shade_horner_seq", point)
+    simulate("shade_horner_seq", point, public=("*",))
 
 
 def steps(a, b, c, d, t, t_f: int) -> Iterator[dict[str, np.ndarray]]:

@@ -218,6 +218,15 @@ def synth(module: tuple[str, ...]) -> None:
     command.main(list(module))
 
 
+@cli.command()
+@click.argument("proof", nargs=-1)
+def formal(proof: tuple[str, ...]) -> None:
+    """Prove properties of the modules (or those named) and try their mutants; leaves build/formal.json."""
+    from polyshade.scripts.flow import formal as command
+
+    sys.exit(command.main(list(proof)))
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; turn every fault of the user into one line and exit status 2."""
     try:

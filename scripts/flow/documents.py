@@ -19,7 +19,7 @@ FILE = re.compile(
 )
 SECTION = re.compile(r'(README|[\w/]+\.md), "([^"]+)"')
 MODULE = re.compile(r"(?<![\w/])(shade_[a-z0-9_]*[a-z0-9])(?![\w*])")
-MAKE = re.compile(r"(?:`|^)make ([a-z][a-z-]*)", re.MULTILINE)
+MAKE = re.compile(r"`make ([a-z][a-z-]*)|(?<=\n)make ([a-z][a-z-]*)(?=[^`]*```)")  # in quotes, or a line of a block
 COMMAND = re.compile(r"(?:`|bin/)polyshade ([a-z]+)")
 
 
@@ -66,7 +66,7 @@ def mentions(root: Path, name: str, text: str) -> Iterator[str]:
         if not path.exists() or section not in headings(path):
             yield f'{name}: names the section "{section}" of {document}, which does not exist'
     targets = re.findall(r"^([a-z][a-z -]*):", (root / "Makefile").read_text(), re.MULTILINE)
-    for target in MAKE.findall(text):
+    for target in map("".join, MAKE.findall(text)):
         if target not in " ".join(targets).split():
             yield f"{name}: names the command make {target}, which does not exist"
     for command in COMMAND.findall(text):

@@ -25,7 +25,7 @@ from PIL import Image
 from polyshade.sim import frame
 from polyshade.sim.errors import UserError
 from polyshade.sim.frame import Settings
-from polyshade.sim.scene.mesh import Mesh, load_mesh
+from polyshade.sim.scene.mesh import Mesh
 from tqdm import tqdm
 
 FRAMES_MAX = 3600
@@ -85,7 +85,7 @@ def shoot_all(frames: Sequence[Settings], scheduler: str | None = None) -> Shots
     workers died again and again.
     """
     began = time.perf_counter()
-    mesh = load_mesh(frames[0].mesh, frames[0].subdivide)
+    mesh = frames[0].load()
     with _client(scheduler, len(frames)) as client:
         futures = client.map(shoot, frames, mesh=mesh, pure=False)
         done = distributed.as_completed(futures)

@@ -24,8 +24,8 @@ from polyshade.sim import core, tools
 from polyshade.sim.core import quantize
 from polyshade.sim.errors import UserError
 from polyshade.sim.scene.camera import Camera
-from polyshade.sim.scene.mesh import Mesh, load_mesh
-from polyshade.sim.scene.raster import Spans, expand, resolve, scan_convert
+from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
+from polyshade.sim.scene.raster import Spans, expand, faces_viewer, resolve, scan_convert
 from tqdm import tqdm
 
 PATHS = {"poly": contract.PATH_POLY, "normals": contract.PATH_NORMALS}
@@ -60,8 +60,13 @@ class Settings:
     threshold: float = 0.9
     degree: int = 3  # of every span in form paper
     criterion: float = 0.005  # P2's eta, up to which Lambert's light alone draws a triangle without normalizing
+    crease: float | None = None  # these four: see Reading
+    flip: bool = False
+    two_sided: bool = False
+    up: str = "y"
 
     def __post_init__(self) -> None:
+        _ = self.reading  # refuses what it must
         for name, allowed in CHOICES.items():
             if getattr(self, name) not in allowed:
                 option = name.replace("_", "-")
@@ -73,6 +78,15 @@ class Settings:
             raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
         if self.light_unit == "folded" and (self.path != "poly" or self.material.model not in FOLDED_MODELS):
             raise UserError(f"--light-unit: folded is allowed with --path poly and --model {', '.join(FOLDED_MODELS)}")
+
+    @property
+    def reading(self) -> Reading:
+        """How the mesh is read."""
+        return Reading(self.subdivide, self.crease, self.flip, self.two_sided, self.up)
+
+    def load(self) -> Mesh:
+        """The mesh."""
+        return load_mesh(self.mesh, self.subdivide, self.reading)
 
     @property
     def form(self) -> str:
@@ -173,7 +187,7 @@ def flat(corners: NDArray[np.float64], threshold: float, form: int) -> NDArray[n
 def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     """Render a frame through the RTL and compare it with the golden model and with float64.
 
-    ``mesh``: what ``load_mesh`` makes of the settings, where it is there already. ``report["mismatches"]`` counts the
+    ``mesh``: what the settings load, where it is there already. ``report["mismatches"]`` counts the
     pixels whose value, tag or end-of-span mark differs from the golden model's, ``report["first_mismatch"]`` tells the
     first of them; ``report["counter_mismatches"]`` counters and bits of STATUS that differ.
     """
@@ -185,12 +199,18 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
             bar.set_description(name)
 
         camera, surface = settings.camera, settings.material
-        mesh = mesh or load_mesh(settings.mesh, settings.subdivide)
+        mesh = mesh or settings.load()
         stage("scan")
         screen = camera.project(mesh)
         spans = scan_convert(screen, mesh.faces, camera.size)
+        hints = list(mesh.hints)
+        if not len(spans) and not faces_viewer(screen, mesh.faces):
+            hints.append(f"none of {len(mesh.faces)} triangles faces the viewer: --two-sided shows their backs")
         visible = resolve(spans, camera.size)
-        lines = core.Lines.of(spans, flat(screen.normals[mesh.faces], settings.criterion, FORMS[settings.form]))
+        passed = np.zeros(len(mesh.faces), bool)
+        shown = np.unique(spans.triangle)
+        passed[shown] = flat(screen.normals[mesh.faces[shown]], settings.criterion, FORMS[settings.form])
+        lines = core.Lines.of(spans, passed)
         drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
@@ -211,7 +231,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     found = {"first_mismatch": drawn.first_mismatch, "counter_mismatches": drawn.counter_mismatches}
     report = {
         "mesh": settings.mesh,
-        "subdivide": settings.subdivide,
+        **vars(settings.reading),
         "size": camera.size,
         "projection": camera.projection,
         "yaw": camera.yaw,
@@ -226,6 +246,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         "light": _plain(settings.light),
         "triangles": len(mesh.faces),
         "repairs": mesh.repairs,
+        **({"hints": hints} if hints else {}),
         "spans": len(spans),
         "pixels": pixels,
         "visible_pixels": int((visible >= 0).sum()),

@@ -90,8 +90,8 @@ class Camera:
         """
         points = mesh.vertices @ self.rotation.T
         points -= (points.min(axis=0) + points.max(axis=0)) / 2
-        points /= np.abs(points).max()  # so that the squares of the next line neither overflow nor vanish
-        points /= np.linalg.norm(points, axis=1).max()
+        points /= max(points.max(), -points.min())  # so that the squares of the next line neither overflow nor vanish
+        points /= np.sqrt(np.einsum("vi,vi->v", points, points).max())
         if self.projection == "perspective":
             distance = 1 / sin(radians(self.field_of_view) / 2) - points[:, 2]
             plane, depth = points[:, :2] / distance[:, None], -1 / distance

@@ -83,6 +83,10 @@ def snap(xy: Floats) -> Ints:
     return np.rint(xy * SUBPIXELS).astype(np.int64)
 
 
+BLOCK = 1 << 16
+"""Faces at a time: what is computed of them stays small beside the mesh."""
+
+
 def scan_convert(screen: Screen, faces: NDArray[np.int32], size: int, cull: bool = True) -> Spans:
     """Cut triangles into spans of a ``size`` x ``size`` frame.
 
@@ -90,9 +94,30 @@ def scan_convert(screen: Screen, faces: NDArray[np.int32], size: int, cull: bool
     their back to the viewer are left out unless `cull` is False; faces without area after snapping always are.
     Pixels outside the frame are clipped.
     """
-    corners = snap(screen.xy)[faces]  # (F, 3, 2)
+    places = snap(screen.xy)
+    starts = range(0, max(len(faces), 1), BLOCK)
+    parts = [vars(_scan_convert(screen, places, faces[at : at + BLOCK], size, cull)) for at in starts]
+    for at, part in zip(starts, parts, strict=True):
+        part["triangle"] += np.int32(at)
+    return Spans(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+
+
+def faces_viewer(screen: Screen, faces: NDArray[np.int32]) -> bool:
+    """Whether any face turns its front to the viewer."""
+    places = snap(screen.xy)
+    return any((_areas(places[faces[at : at + BLOCK]]) < 0).any() for at in range(0, len(faces), BLOCK))
+
+
+def _areas(corners: Ints) -> Ints:
+    """(F,): twice the areas of triangles (F, 3, 2), negative for front faces since y points down."""
     ab, ac = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]  # twice the area, negative for front faces since y points down
+    return ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+
+
+def _scan_convert(screen: Screen, places: Ints, faces: NDArray[np.int32], size: int, cull: bool) -> Spans:
+    """The spans of some faces; `places`: the snapped vertices of all."""
+    corners = places[faces]  # (F, 3, 2)
+    area = _areas(corners)
     triangle = np.flatnonzero(area < 0 if cull else area != 0)
     order = np.where(area[triangle, None] < 0, (0, 2, 1), (0, 1, 2))  # E > 0 inside from here on
     corner = np.take_along_axis(faces[triangle], order, axis=1)  # (T, 3) vertex indices

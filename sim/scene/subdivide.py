@@ -60,19 +60,79 @@ def catmull_clark(vertices: Floats, corners: Ints, sizes: Ints) -> tuple[Floats,
 
 
 def triangulate(vertices: Floats, corners: Ints, sizes: Ints) -> NDArray[np.int32]:
-    """Cut convex polygons into fans: triangles (sum of sizes - 2 F, 3).
+    """Cut polygons into triangles (sum of sizes - 2 F, 3), as vertices; see `cut`."""
+    return corners[cut(vertices, corners, sizes)].astype(np.int32)
 
-    A fan starts at the polygon's first corner; a quad's at its second where that gives the shorter diagonal.
+
+def cut(vertices: Floats, corners: Ints, sizes: Ints) -> Ints:
+    """Cut polygons into triangles: (sum of sizes - 2 F, 3) places in ``corners``, in the order of the faces.
+
+    A convex polygon becomes a fan from its first corner. A quad is cut along the diagonal that lies inside, of two the
+    shorter one. Any other polygon with a corner that is not convex loses one ear after the other.
     """
     start = np.cumsum(sizes) - sizes
+    if (sizes == 3).all():
+        return np.arange(len(corners)).reshape(-1, 3)
     pivot = np.zeros_like(start)
     quad = np.flatnonzero(sizes == 4)
-    a, b, c, d = (vertices[corners[start[quad] + k]] for k in range(4))
-    pivot[quad] = np.linalg.norm(a - c, axis=1) > np.linalg.norm(b - d, axis=1)
+    pivot[quad] = _inner_diagonal(*(vertices[corners[start[quad] + k]] for k in range(4)))
     face = np.repeat(np.arange(len(sizes)), sizes - 2)
-    step = np.arange(len(face)) - (start - 2 * np.arange(len(sizes)))[face]
+    first = start - 2 * np.arange(len(sizes))  # of a face's triangles
+    step = np.arange(len(face)) - first[face]
 
     def corner(k: Ints) -> Ints:
-        return corners[start[face] + (pivot[face] + k) % sizes[face]]
+        return start[face] + (pivot[face] + k) % sizes[face]
 
-    return np.stack([corner(np.zeros_like(step)), corner(step + 1), corner(step + 2)], axis=1).astype(np.int32)
+    made = np.stack([corner(np.zeros_like(step)), corner(step + 1), corner(step + 2)], axis=1)
+    for large in np.flatnonzero(sizes > 4):
+        at, size = start[large], sizes[large]
+        ears = _ears(vertices[corners[at : at + size]])
+        if ears is not None:
+            made[first[large] : first[large] + size - 2] = at + ears
+    return made
+
+
+def _inner_diagonal(a: Floats, b: Floats, c: Floats, d: Floats) -> NDArray[np.bool_]:
+    """(Q,) of quads: False to cut from a to c, True from b to d."""
+    normal = np.cross(c - a, d - b)
+
+    def turned(p: Floats, q: Floats, r: Floats) -> NDArray[np.bool_]:
+        return np.einsum("qi,qi->q", np.cross(q - p, r - p), normal) < 0
+
+    first, second = turned(a, b, c) | turned(a, c, d), turned(b, c, d) | turned(b, d, a)
+    shorter = np.linalg.norm(a - c, axis=1) > np.linalg.norm(b - d, axis=1)
+    return np.where(first == second, shorter, first)
+
+
+def _ears(points: Floats) -> Ints | None:
+    """The triangles (N - 2, 3) of one polygon (N, 3), ear by ear; None if all of its corners are convex.
+
+    It is looked at along its normal. Where nothing is an ear, in a polygon that crosses itself, any corner goes.
+    """
+    points = points - points[0]
+    normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
+    axis = int(np.abs(normal).argmax())
+    flat = np.delete(points, axis, axis=1) * (1, (-1 if axis == 1 else 1) * np.copysign(1, normal[axis]))
+    flat = flat / (np.abs(flat).max() or 1)
+
+    def area(p: Floats, q: Floats, r: Floats) -> Floats:
+        return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+
+    if (area(np.roll(flat, 1, axis=0), flat, np.roll(flat, -1, axis=0)) > 0).all():
+        return None
+    left, made, at, tried = list(range(len(flat))), [], 0, 0
+    while len(left) > 3:
+        at %= len(left)
+        before, here, after = left[at - 1], left[at], left[(at + 1) % len(left)]
+        p, q, r = flat[before], flat[here], flat[after]
+        if tried < len(left):
+            others = flat[[k for k in left if k not in (before, here, after)]]
+            inside = (area(p, q, others) >= 0) & (area(q, r, others) >= 0) & (area(r, p, others) >= 0)
+            inside &= ~((others == p) | (others == r)).all(axis=1)  # a slit's two sides share their corners
+            if area(p, q, r) <= 0 or inside.any():
+                at, tried = at + 1, tried + 1
+                continue
+        made.append((before, here, after))
+        del left[at]
+        tried = 0
+    return np.array([*made, left])

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from polyshade.sim.errors import LONGEST, UserError
 from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.normals import joined
 
 from tb.scene.bad_meshes import WRITERS, bad_meshes, plant
 
@@ -16,7 +17,7 @@ def test_sound_files_are_read(tmp_path: Path) -> None:
             path = tmp_path / f"{writer.__name__}.{suffix}"
             path.write_bytes(writer())
             mesh = load_mesh(str(path))
-            assert mesh.vertices.shape == (4, 3)
+            assert len(joined(mesh.vertices)[0]) == 4
             assert mesh.faces.shape == (4, 3)
 
 

@@ -8,22 +8,27 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
 from polyshade.sim.errors import UserError
 from polyshade.sim.scene import head as head_module
-from polyshade.sim.scene.mesh import Mesh, load_mesh, vertex_normals
+from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
+from polyshade.sim.scene.normals import vertex_normals
 
 from tb.scene.bad_meshes import FACES, POINTS, WRITERS, binary_ply, binary_stl, gltf_tree, obj, off, ply, stl
+
+CUBE = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+SIDES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (2, 3, 7, 6), (1, 2, 6, 5), (3, 0, 4, 7)]
+OUTWARD = [(0, 0, -1), (0, 0, 1), (0, -1, 0), (0, 1, 0), (1, 0, 0), (-1, 0, 0)]
+"""A cube, its quads counter-clockwise seen from outside, and their normals."""
 
 PLANE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
 
 @pytest.fixture
 def load(tmp_path: Path):
-    def loader(text: str | bytes, suffix: str = "obj", subdivide: int = 0) -> Mesh:
+    def loader(text: str | bytes, suffix: str = "obj", subdivide: int = 0, **options) -> Mesh:
         path = tmp_path / f"mesh.{suffix}"
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return load_mesh(str(path), subdivide)
+        return load_mesh(str(path), subdivide, Reading(subdivide, **options))
 
     return loader
 
@@ -59,8 +64,8 @@ def test_formats_agree(load) -> None:
 
 def test_absent_normals_are_weighted_by_angle(load) -> None:
     # A cube: whatever diagonal cuts its sides, each corner sees three right angles.
-    cube = trimesh.creation.box()
-    mesh = load(cube.export(file_type="off"), "off")
+    cut = [side[i:] + side[:i] for i, side in zip((0, 1, 0, 1, 1, 0), SIDES, strict=True)]
+    mesh = load(off(CUBE, [t for a, b, c, d in cut for t in ((a, b, c), (a, c, d))]), "off", crease=180)
     assert np.allclose(mesh.normals, np.sign(mesh.vertices) / np.sqrt(3))
     assert mesh.repairs == {"absent_normals": 8}
 
@@ -87,10 +92,11 @@ def test_a_vertex_with_two_normals_is_two_vertices(load) -> None:
     assert sorted(set(map(tuple, mesh.normals.tolist()))) == [(0, 0, 1), (0, 1, 0)]
 
 
-def test_partial_normals_count_as_absent(load) -> None:
+def test_only_absent_normals_are_computed(load) -> None:
     mesh = load(PLANE + "vn 0 1 0\nf 1//1 2//1 3//1\nf 1 3 4\n")
-    assert np.allclose(mesh.normals, (0, 0, 1))
-    assert mesh.repairs["absent_normals"] == 4
+    assert np.allclose(mesh.normals[mesh.faces[0]], (0, 1, 0))
+    assert np.allclose(mesh.normals[mesh.faces[1]], (0, 0, 1))
+    assert mesh.repairs == {"absent_normals": 3}
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
@@ -138,6 +144,7 @@ def test_stl_is_welded(load) -> None:
         mesh = load(writer(), "stl")
         assert mesh.repairs == {"welded_vertices": 8, "absent_normals": 4}
         assert closed(mesh)
+        assert len(load(writer(), "stl", crease=180).vertices) == 4
 
 
 def test_faces_without_area_are_dropped(load) -> None:
@@ -250,12 +257,13 @@ def test_gltf_with_a_buffer_beside_it(tmp_path: Path) -> None:
 
 
 def test_subdivide_a_file(load) -> None:
-    cube = trimesh.creation.box()
-    mesh = load(cube.export(file_type="off"), "off", subdivide=2)
-    assert len(mesh.faces) == 12 * 6 * 4
+    mesh = load(off(CUBE, SIDES), "off", subdivide=2)
+    assert len(mesh.faces) == 6 * 8 * 4  # of quads
     assert closed(mesh)
-    assert (np.abs(mesh.vertices) < 0.5).all()
+    assert (np.abs(mesh.vertices) < 1).all()
     assert (mesh.vertices * mesh.normals).sum(axis=1).min() > 0
+    turned = np.roll(mesh.vertices, 1, axis=1)  # as round as the cube: a diagonal would show
+    assert np.isclose(np.sort(turned, axis=0), np.sort(mesh.vertices, axis=0)).all()
     rows = stl()
     assert closed(load(rows, "stl", subdivide=1))
 
@@ -263,7 +271,7 @@ def test_subdivide_a_file(load) -> None:
 def test_too_many_triangles(load, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("polyshade.sim.scene.mesh.MOST_TRIANGLES", 95)
     assert len(load(obj(), subdivide=1).faces) == 24
-    with pytest.raises(UserError, match=r"mesh\.obj: at --subdivide 2 it has more than 95 triangles$"):
+    with pytest.raises(UserError, match=r"mesh\.obj: at --subdivide 2 it has 96 triangles, allowed are 95$"):
         load(obj(), subdivide=2)
 
 

@@ -2,66 +2,80 @@
 
 from __future__ import annotations
 
+import io
 import re
-from pathlib import Path
+from array import array
+from collections.abc import Iterator
 
-from polyshade.sim.scene.formats.common import Checked, Damage, decode, numbers
+import numpy as np
+from polyshade.sim.scene.formats.surface import Damage, Surface, decode, numbers, without_small
 
-_Corner = tuple[int, int]
-"""Indices of a point and of a normal, counted from 1; the normal's is 0 when there is none."""
+_GEOMETRY = (b"v", b"vn", b"vt", b"f", b"l", b"p")
+"""What a backslash at the end of the line continues; at the end of a name or a comment it is a part of that."""
+
+_CORNER = re.compile(rb"([+-]?\d{1,18})(?:/(?:[+-]?\d+)?(?:/([+-]?\d{1,18})?)?)?")
 
 
-def check(data: bytes, path: Path) -> Checked:
-    """Rewrite the file's geometry: triangles with absolute indices, and normals only if every corner has one.
+def read(data: bytes) -> Surface:
+    """Points, normals and faces; lines of other kinds (groups, materials, curves) are passed over.
 
-    The reader takes a relative index from the end of the file, but it counts from the face that has it; it takes
-    index 0 for 1, and it wants all faces alike. Lines of other kinds (groups, materials, curves) are left out.
+    An index counts from 1, or back from the face's own line from -1. A normal's index may be 0 or absent.
     """
-    points: dict[str, list[str]] = {"v": [], "vn": []}
-    faces: list[list[_Corner]] = []
-    lines = decode(data).replace("\\\n", " ").split("\n")
-    for number, line in enumerate(lines, 1):
-        kind, *words = line.partition("#")[0].split() or [""]
-        where = f"line {number}"
-        if kind in points:
-            if len(words) < 3:
-                raise Damage(f"{where}: {kind} needs three numbers")
-            points[kind].append(" ".join(map(repr, numbers(words[:3], where))))
-        elif kind == "f":
-            if len(words) < 3:
-                raise Damage(f"{where}: a face needs three corners")
-            faces.append([_corner(word, len(points["v"]), len(points["vn"]), where) for word in words])
-    if not faces:
-        raise Damage("has no faces")
-    for kind, indices in zip(points, zip(*(corner for face in faces for corner in face), strict=True), strict=True):
-        if max(indices) > len(points[kind]):
-            raise Damage(f"a face names {kind} {max(indices)}, the file has {len(points[kind])}")
+    points, normals = array("d"), array("d")
+    corners, normal_of, sizes = array("q"), array("q"), array("q")
+    for number, words in _statements(decode(data)):
+        kind = words[0]
+        if kind == b"v" or kind == b"vn":
+            if len(words) < 4:
+                raise Damage(f"line {number}: {kind.decode()} needs three numbers")
+            values = numbers(words[1:4], f"line {number}", finite=kind == b"v")
+            (points if kind == b"v" else normals).extend(values)
+        elif kind == b"f":
+            where = f"line {number}"
+            for word in words[1:]:
+                if word.isdigit():
+                    point, normal = int(word), 0
+                else:
+                    point, normal = _corner(word, len(points) // 3, len(normals) // 3, where)
+                if not 0 < point < 1 << 62:
+                    raise Damage(f"{where}: index {point} is none, they count from 1")
+                corners.append(point - 1)
+                normal_of.append(normal - 1)
+            sizes.append(len(words) - 1)
+    where = np.frombuffer(corners, np.int64) if corners else np.empty(0, np.int64)
+    lean = np.frombuffer(normal_of, np.int64) if normal_of else where
+    for kind, index, values in (("v", where, points), ("vn", lean, normals)):
+        if len(index) and index.max() >= len(values) // 3:
+            raise Damage(f"a face names {kind} {index.max() + 1}, the file has {len(values) // 3}")
+    repairs, where, sizes, (lean,) = without_small(where, np.array(sizes, np.int64), lean)
+    return Surface(
+        np.frombuffer(points).reshape(-1, 3) if points else np.empty((0, 3)), where, sizes,
+        np.frombuffer(normals).reshape(-1, 3) if (lean >= 0).any() else None, lean, repairs=repairs,
+    )  # fmt: skip
 
-    with_normals = all(normal for face in faces for _, normal in face)
-    triangles = [(f[0], f[i], f[i + 1]) for f in faces for i in range(1, len(f) - 1)]
-    rows = [f"v {point}" for point in points["v"]]
-    if with_normals:
-        rows += [f"vn {normal}" for normal in points["vn"]]
-        rows += ["f {}//{} {}//{} {}//{}".format(*a, *b, *c) for a, b, c in triangles]
-    else:
-        rows += [f"f {a[0]} {b[0]} {c[0]}" for a, b, c in triangles]
-    return Checked(len(triangles), len(triangles) - len(faces), "\n".join([*rows, ""]).encode())
+
+def _statements(text: bytes) -> Iterator[tuple[int, list[bytes]]]:
+    """The words of every line with geometry and the number of its first line, continued lines joined."""
+    lines = enumerate(io.BytesIO(text), 1)
+    for number, line in lines:
+        words = line.partition(b"#")[0].split() if b"#" in line else line.split()
+        if not words or words[0] not in _GEOMETRY:
+            continue
+        while words and words[-1].endswith(b"\\"):
+            following = next(lines, (0, b""))[1].partition(b"#")[0].split()
+            words = [*words[:-1], *filter(None, [words[-1][:-1]]), *following]
+        yield number, words
 
 
-def _corner(word: str, points: int, normals: int, where: str) -> _Corner:
-    """Read ``point``, ``point/texture``, ``point//normal`` or ``point/texture/normal``.
+def _corner(word: bytes, points: int, normals: int, where: str) -> tuple[int, int]:
+    """``point``, ``point/texture``, ``point//normal`` or ``point/texture/normal``, as indices from 1.
 
     `points` and `normals` have been defined so far. Example: with 8 points ``-1//3`` is (8, 3).
     """
-    parts = re.fullmatch(r"([+-]?\d+)(?:/(?:[+-]?\d+)?(?:/([+-]?\d+)?)?)?", word)
+    parts = _CORNER.fullmatch(word)
     if not parts:
-        raise Damage(f"{where}: {word!r} is no corner of a face")
-    point, normal = parts.groups()
-    return _absolute(int(point), points, where), _absolute(int(normal), normals, where) if normal else 0
-
-
-def _absolute(index: int, defined: int, where: str) -> int:
-    absolute = index if index > 0 else defined + 1 + index
-    if index == 0 or absolute < 1:
-        raise Damage(f"{where}: index {index} is none, they count from 1, and back from -1 to -{defined}")
-    return absolute
+        raise Damage(f"{where}: {word.decode(errors='replace')!r} is no corner of a face")
+    point, normal = int(parts[1]), int(parts[2] or 0)
+    if point == 0 or point < -points or normal < -normals:
+        raise Damage(f"{where}: {word.decode()!r} is no corner, indices count from 1, and back from -1 to -{points}")
+    return point + (points + 1) * (point < 0), normal + (normals + 1) * (normal < 0)

@@ -1,40 +1,54 @@
-"""OFF: text, a line of counts, then one line for each vertex and each face."""
+"""OFF: text, a line of counts, then one line for each point and each face."""
 
 from __future__ import annotations
 
 import re
-from pathlib import Path
+from array import array
 
-from polyshade.sim.scene.formats.common import Checked, Damage, decode, numbers
+import numpy as np
+from polyshade.sim.scene.formats.surface import Damage, Surface, decode, integers, numbers, without_small
+
+_MAGIC = re.compile(rb"(?:ST)?C?(N)?(4)?(n)?OFF(?![A-Za-z])")
 
 
-def check(data: bytes, path: Path) -> Checked:
-    """Compare the counts with the lines that follow, and read every number of them."""
-    text = decode(data)
-    lines = [line for raw in text.split("\n") if (line := raw.partition("#")[0].strip())]
-    magic = re.match(r"(ST)?C?N?OFF\b", lines[0]) if lines else None
+def read(data: bytes) -> Surface:
+    """Points, of ``4OFF`` with a fourth coordinate that divides the others; normals of ``NOFF``; faces."""
+    lines = [line for raw in decode(data).split(b"\n") if (line := raw.partition(b"#")[0].strip())]
+    magic = _MAGIC.match(lines[0]) if lines else None
     if not magic:
         raise Damage("does not begin with OFF")
+    if magic[3] or lines[0][magic.end() :].strip().startswith(b"BINARY"):
+        raise Damage(f"is of the kind {lines[0].decode(errors='replace')!r}, allowed is text of three dimensions")
     rest = lines[0][magic.end() :].strip()  # the counts may follow on the same line
     lines = [rest, *lines[1:]] if rest else lines[1:]
     counts = lines[0].split() if lines else []
-    if len(counts) < 2 or not all(count.isdecimal() for count in counts):
+    if len(counts) < 2 or not all(count.isdigit() for count in counts):
         raise Damage("has no line of vertex and face counts behind OFF")
     vertices, faces = int(counts[0]), int(counts[1])
     if len(lines) - 1 < vertices + faces:
         raise Damage(f"truncated, claims {vertices} vertices and {faces} faces, {len(lines) - 1} lines follow")
+
+    axes = 4 if magic[2] else 3
+    columns = axes + 3 * bool(magic[1])
+    table = array("d")
     for row, line in enumerate(lines[1 : vertices + 1]):
-        if len(numbers(line.split(), f"vertex {row}")) < 3:
-            raise Damage(f"vertex {row} has fewer than three coordinates")
-    triangles = 0
+        words = line.split()
+        if len(words) < columns:
+            raise Damage(f"vertex {row} has {len(words)} numbers, {columns} are needed")
+        table.extend(numbers(words[:axes], f"vertex {row}") + numbers(words[axes:columns], f"vertex {row}", False))
+    corners, sizes = array("q"), array("q")
     for row, line in enumerate(lines[vertices + 1 : vertices + faces + 1]):
-        count, *words = line.split()
-        corners = int(count) if count.isdecimal() else 0
-        if corners < 3 or len(words) < corners or not all(word.isdecimal() for word in words[:corners]):
-            raise Damage(f"face {row} is no count of at least three and as many indices, {line!r}")
-        if any(int(word) >= vertices for word in words[:corners]):
-            raise Damage(f"face {row} names a vertex outside of 0 to {vertices - 1}, {line!r}")
-        triangles += corners - 2
-    if not triangles:
-        raise Damage("has no faces")
-    return Checked(triangles, triangles - faces, text.encode())
+        words = line.split()
+        (size,) = integers(words[:1], f"face {row}")
+        if not 0 <= size < len(words):
+            raise Damage(f"face {row} is no count and as many indices, {line.decode(errors='replace')!r}")
+        corners.extend(integers(words[1 : size + 1], f"face {row}"))
+        sizes.append(size)
+    rows = np.frombuffer(table).reshape(-1, columns) if table else np.empty((0, columns))
+    points = rows[:, :3].copy()
+    if axes == 4:
+        if not rows[:, 3].all():
+            raise Damage(f"vertex {np.argmin(rows[:, 3] != 0)} lies at infinity, its fourth coordinate is 0")
+        points /= rows[:, 3:4]
+    repairs, where, sizes, _ = without_small(np.array(corners, np.int64), np.array(sizes, np.int64))
+    return Surface(points, where, sizes, rows[:, axes:columns] if magic[1] else None, repairs=repairs)

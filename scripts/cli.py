@@ -20,12 +20,39 @@ from polyshade.sim.scene.camera import PROJECTIONS, Camera
 from polyshade.sim.sources import BUILD
 
 VIEW, SURFACE = Camera(), Material()
-PATH_OF = {  # options of one path
-    "degree": "poly", "criterion": "poly", "evaluator": "poly", "variant": "normals", "threshold": "normals",
-}  # fmt: skip
+LOBES = tuple(model for model in MODELS if model != "lambert")
+NEEDS = {  # options that have an effect with some values of others only, which are named from the outermost in
+    "degree": {"path": ("poly",), "form": ("paper",)},
+    "criterion": {"path": ("poly",), "model": ("lambert",)},
+    "evaluator": {"path": ("poly",)},
+    "variant": {"path": ("normals",)},
+    "threshold": {"path": ("normals",), "variant": ("V1", "V2", "V4", "V5")},
+    "shininess": {"model": ("phong", "blinn", "schlick")},
+    "roughness": {"model": ("cook-torrance", "ward")},
+    "f0": {"model": ("cook-torrance",)},
+    "energy": {"model": ("phong", "blinn")},
+    **{option: {"model": LOBES} for option in ("exposure", "specular", "highlight")},
+    "field_of_view": {"projection": ("perspective",)},
+}
+
+
+class Interrupted(Exception):
+    """Control-C; click itself would answer it with an empty line."""
+
+
+class Commands(click.Group):
+    """The commands."""
+
+    def invoke(self, ctx: click.Context) -> object:
+        """click's hook."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt as error:
+            raise Interrupted from error
 
 
 @click.group(
+    cls=Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110, "show_default": True},
     no_args_is_help=False,
 )
@@ -50,8 +77,20 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 
 
 @cli.command()
-@click.option("--mesh", default="head", help="head, sphere, or an OBJ, PLY, STL, OFF, glTF or GLB file.")
+@click.argument("file", required=False)
+@click.option("--mesh", default="head", help="head, sphere, or an OBJ, PLY, STL, OFF, glTF or GLB file: as FILE.")
 @click.option("--subdivide", default=0, help="Catmull-Clark steps, 0 to 4.")
+@click.option(
+    "--crease",
+    type=float,
+    default=None,
+    help="Compute all normals, smooth across edges of so many degrees, 0 to 180.  [default: the file's normals; "
+    "where it has none 60, of glTF 0]",
+)
+@click.option("--flat", is_flag=True, help="Flat faces: --crease 0.")
+@click.option("--flip", is_flag=True, help="Turn all faces inside out.")
+@click.option("--two-sided", is_flag=True, help="Show the backs of faces too, lit from their side.")
+@click.option("--up", default="y", help="The file's axis that points up: y or z.")
 @click.option("--size", default=VIEW.size, help="Width and height in pixels, 16 to 4096.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
 @click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
@@ -87,38 +126,69 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 @click.option("--field-of-view", default=VIEW.field_of_view, help="Degrees, of a perspective view.")
 @click.option("--frames", default=1, help="Views of a whole turn: animation.png in place of the three pictures.")
 @click.option("--scheduler", default=None, help="Of --frames: a Dask scheduler.  [default: the cores of this machine]")
-@click.option("--out", default=None, help="Folder.  [default: build/render/<mesh>, of several frames <mesh>-turn]")
+@click.option(
+    "--out",
+    default=None,
+    help="Folder.  [default: render/<mesh>, in the repository build/render/<mesh>, of several frames <mesh>-turn]",
+)
 def render(
-    size: int, projection: str, yaw: float, pitch: float, zoom: float, field_of_view: float, frames: int,
-    scheduler: str | None, out: str | None, **options,
+    file: str | None, size: int, projection: str, yaw: float, pitch: float, zoom: float, field_of_view: float,
+    frames: int, scheduler: str | None, out: str | None, **options,
 ) -> None:  # fmt: skip
     """One frame through the RTL: image.png, reference.png, difference.png, report.json.
 
     Every pixel is compared with the golden model; exit status 1 if any differs.
     """
+    if file is not None:
+        if given("mesh"):
+            raise UserError(f"--mesh: is given beside the file {file!r}, allowed is one of them")
+        options["mesh"] = file
+    if options.pop("flat"):
+        if given("crease"):
+            raise UserError("--crease: is given beside --flat, allowed is one of them")
+        options["crease"] = 0.0
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
     settings = frame.Settings(camera=camera, material=material(options), **options)
-    for name, path in PATH_OF.items():
-        given = click.get_current_context().get_parameter_source(name) is not ParameterSource.DEFAULT
-        if given and path != settings.path:
-            raise UserError(f"--{name}: is without effect on path {settings.path}, allowed with --path {path}")
+    refuse_without_effect({**vars(camera), **vars(settings.material), **vars(settings)})
     if not 1 <= frames <= batch.FRAMES_MAX:
         raise UserError(f"--frames: {frames} is out of range, allowed is 1 to {batch.FRAMES_MAX}")
     if scheduler is not None and frames == 1:
         raise UserError("--scheduler: is without effect on one frame, allowed with --frames 2 and more")
     turns = frames > 1
     folder = folder_of(out, Path("render", Path(settings.mesh).stem + "-turn" * turns))
+    try:
+        frame.check_folder(folder, ["animation.png"] if turns else frame.PICTURES)
+    except UserError:
+        settings.load()  # a fault of the mesh, whose name may be the folder's, is told first
+        raise
     with simulating():
         made = batch.shoot_all(batch.turntable(settings, frames), scheduler) if turns else frame.render(settings)
     made.save(folder)
+    for hint in made.report.get("hints", made.report["frames"][0].get("hints", []) if turns else []):
+        click.echo(f"polyshade: hint: {UserError(hint)}", err=True)
     image = click.format_filename(folder / ("animation.png" if turns else "image.png"))
     tell(image, made.report["frames"] if turns else [made.report])
 
 
+def given(name: str) -> bool:
+    """Whether an option was typed."""
+    return click.get_current_context().get_parameter_source(name) is not ParameterSource.DEFAULT
+
+
+def refuse_without_effect(settings: dict) -> None:
+    """An option that was typed but changes nothing is a mistake, and told."""
+    for name, needed in NEEDS.items():
+        for what, allowed in needed.items():
+            if given(name) and settings[what] not in allowed:
+                option = name.replace("_", "-")
+                effect = f"is without effect on {what} {settings[what]}"
+                raise UserError(f"--{option}: {effect}, allowed with --{what} {', '.join(allowed)}")
+
+
 def folder_of(out: str | None, default: Path) -> Path:
-    """The folder of ``--out``; its default is below ``build``."""
+    """The folder of ``--out``; its default is below ``build`` in the repository, else below the current folder."""
     if out is None:
-        return BUILD / default
+        return BUILD / default if Path.cwd().is_relative_to(BUILD.parent) else default
     if not out or "\0" in out or (os.path.exists(out) and not os.path.isdir(out)):
         raise UserError(f"--out {out!r}: is no folder, allowed a folder or a new name")
     return Path(out)
@@ -171,12 +241,13 @@ def rerun() -> str:
 @click.option("--mesh", default="head", help="As of render.")
 @click.option("--size", default=256, help="Width and height of a picture in pixels, 16 to 4096.")
 @click.option("--scheduler", default=None, help="A Dask scheduler.  [default: the cores of this machine]")
-@click.option("--out", default=None, help="Folder.  [default: build/gallery]")
+@click.option("--out", default=None, help="Folder.  [default: gallery, in the repository build/gallery]")
 def gallery(mesh: str, size: int, scheduler: str | None, out: str | None) -> None:
     """Every model, energy scale and form through the RTL: gallery.png, report.json."""
     from polyshade.scripts.studies import gallery as command
 
     folder = folder_of(out, Path("gallery"))
+    frame.check_folder(folder, ["gallery.png"])
     with simulating():
         made = command.shoot(mesh, size, scheduler)
     frame.save(folder, {"gallery.png": command.sheet(made)}, made.report)
@@ -238,7 +309,7 @@ def main(arguments: list[str] | None = None) -> None:
         message = f"{error.format_message()} (see polyshade --help)"
     except OSError as error:  # a disk that is full, a folder that cannot be written, a compiler that is missing
         message = str(error)
-    except (KeyboardInterrupt, click.Abort):
+    except (Interrupted, KeyboardInterrupt, click.Abort):
         click.echo("polyshade: interrupted", err=True)
         sys.exit(130)
     click.echo(f"polyshade: error: {UserError(message)}", err=True)

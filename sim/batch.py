@@ -8,11 +8,13 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
+import signal
 import time
 import warnings
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError
 from dataclasses import replace
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import NamedTuple
 
@@ -108,13 +110,18 @@ def turntable(settings: Settings, frames: int) -> list[Settings]:
 @contextlib.contextmanager
 def _client(scheduler: str | None, tasks: int) -> Iterator[distributed.Client]:
     """A client of a scheduler, or of one with a process for each of this machine's cores."""
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
     warnings.filterwarnings("ignore", "Sending large graph", UserWarning)  # a large mesh
     where = "--frames" if scheduler is None else f"--scheduler {scheduler!r}"
     with contextlib.ExitStack() as stack:
+        logging.disable()  # what Dask says of a scheduler that went away fills a screen
+        stack.callback(logging.disable, logging.NOTSET)
         try:
             if scheduler is None:
                 stack.enter_context(dask.config.set(ENVIRONMENT))
+                # Its processes never hear control-C. The tracker starts first: it ends by unblocking the signal.
+                resource_tracker.ensure_running()
+                heard = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+                stack.callback(signal.pthread_sigmask, signal.SIG_SETMASK, heard)
                 scheduler = stack.enter_context(
                     distributed.LocalCluster(
                         n_workers=min(len(os.sched_getaffinity(0)), tasks),
@@ -124,6 +131,8 @@ def _client(scheduler: str | None, tasks: int) -> Iterator[distributed.Client]:
                         silence_logs=logging.CRITICAL,
                     )
                 )
+                signal.pthread_sigmask(signal.SIG_SETMASK, heard)
+                stack.callback(signal.pthread_sigmask, signal.SIG_BLOCK, [signal.SIGINT])  # nor does the clearing up
             client = stack.enter_context(distributed.Client(scheduler, timeout=PATIENCE))
             client.wait_for_workers(1, timeout=PATIENCE)
         except (OSError, ValueError, RuntimeError) as error:

@@ -6,6 +6,7 @@ golden model, bit for bit, and with light in float64 by the original model at ev
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import tempfile
@@ -150,6 +151,29 @@ class Frame:
         save(folder, pictures, self.report)
 
 
+PICTURES = ["image.png", "reference.png", "difference.png"]
+
+
+def check_folder(folder: Path, names: list[str]) -> None:
+    """Raise UserError, before any work is done, when the folder cannot be made or written; leaves it as it was."""
+    made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".polyshade-", dir=folder):
+            _refuse_folders(folder, names)
+    except OSError as error:
+        raise UserError(f"--out {folder}: cannot be written ({error.strerror})") from error
+    finally:
+        for part in made:
+            with contextlib.suppress(OSError):
+                part.rmdir()
+
+
+def _refuse_folders(folder: Path, names: list[str]) -> None:
+    if taken := [name for name in [*names, "report.json"] if (folder / name).is_dir()]:
+        raise UserError(f"--out {folder}: {taken[0]} in it is a folder, allowed a file or nothing")
+
+
 def save(folder: Path, pictures: dict[str, Image.Image], report: dict, **options) -> None:
     """Pictures by name, with Pillow's ``options``, and report.json, all or none."""
     names = [*pictures, "report.json"]
@@ -159,8 +183,7 @@ def save(folder: Path, pictures: dict[str, Image.Image], report: dict, **options
             for name, image in pictures.items():
                 image.save(Path(scratch, name), **options)
             Path(scratch, names[-1]).write_text(json.dumps(report, indent=2) + "\n")
-            if taken := [name for name in names if (folder / name).is_dir()]:
-                raise UserError(f"--out {folder}: {taken[0]} in it is a folder, allowed a file or nothing")
+            _refuse_folders(folder, list(pictures))
             for name in names:
                 os.replace(Path(scratch, name), folder / name)
     except OSError as error:

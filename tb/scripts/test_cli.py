@@ -36,6 +36,7 @@ from polyshade.sim.units import Case, cases
 
 from tb.runner import HANGS
 from tb.scene import bad_meshes
+from tb.scene.shapes import CUBE, SIDES
 
 PICTURES = ["image.png", "reference.png", "difference.png"]
 FILES = sorted([*PICTURES, "report.json"])
@@ -46,7 +47,8 @@ KEYS = [
     "simulated_pixels_per_second", "wall_seconds", "versions",
 ]  # fmt: skip
 MORE_KEYS = [
-    "subdivide", "projection", "yaw", "pitch", "zoom", "field_of_view", "lanes", "light_unit", "shininess", "roughness",
+    "subdivide", "crease", "flip", "two_sided", "up",
+    "projection", "yaw", "pitch", "zoom", "field_of_view", "lanes", "light_unit", "shininess", "roughness",
     "f0", "energy", "exposure", "ambient", "diffuse", "specular", "colour", "highlight", "light", "repairs",
     "visible_pixels", "light_evaluations", "counters", "status",
 ]  # fmt: skip
@@ -106,11 +108,12 @@ def strict(text: str) -> dict:
     return json.loads(text, parse_constant=refuse)
 
 
-def sane(folder: Path) -> dict:
+def sane(folder: Path, hints: int = 0) -> dict:
     """The report of a frame whose files are all there and agree with each other."""
     assert sorted(path.name for path in folder.iterdir()) == FILES
     report = strict((folder / "report.json").read_text())
     assert [key for key in report if key in KEYS] == KEYS
+    assert len(report.pop("hints", [])) == hints
     assert set(report) == {*KEYS, *MORE_KEYS, *KEYS_OF_PATH[report["path"]], *KEYS_OF_FORM[report["form"]]}
     assert all(key == key.lower() for key in report)
     plain = {key: value for key, value in report.items() if key not in ("versions", "repairs", "counters")}
@@ -232,11 +235,12 @@ def test_views(polyshade, place: Path, mesh: str, view: str) -> None:
 def test_a_mesh_that_is_not_seen(polyshade, place: Path, path: str) -> None:
     """A triangle shows its back: a frame of background, and a report without a number that could not be."""
     (place / "back.obj").write_text("v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n")
-    status, out, err = polyshade("render", "--mesh", "back.obj", "--size", "16", "--path", path, "--out", "frame")
-    assert (status, err) == (0, "")
+    status, out, err = polyshade("render", "back.obj", "--size", "16", "--path", path, "--out", "frame")
+    assert status == 0
+    assert err == "polyshade: hint: none of 1 triangles faces the viewer: --two-sided shows their backs\n"
     assert "0 pixels of 0 spans in " in out
     assert " 0 mismatches" in out
-    report = sane(place / "frame")
+    report = sane(place / "frame", hints=1)
     assert {key: report[key] for key in ("triangles", "spans", "pixels", "visible_pixels")} == {
         "triangles": 1, "spans": 0, "pixels": 0, "visible_pixels": 0,
     }  # fmt: skip
@@ -244,6 +248,53 @@ def test_a_mesh_that_is_not_seen(polyshade, place: Path, path: str) -> None:
     assert all(report[key] is None for key in unknown)
     assert report["max_error"] == 0
     assert report["repairs"] == {"absent_normals": 3}
+
+
+def quads(faces: list[tuple[int, ...]]) -> str:
+    """An OBJ file of the cube's corners."""
+    rows = [f"v {x} {y} {z}" for x, y, z in CUBE] + ["f " + " ".join(str(i + 1) for i in face) for face in faces]
+    return "\n".join(rows)
+
+
+WHOLE = 11640
+"""Pixels of a cube at the default view at 128."""
+
+
+@pytest.mark.parametrize(
+    ("faces", "options", "pixels", "hints"),
+    [
+        (SIDES, [], WHOLE, 0),
+        ([side[::-1] for side in SIDES], [], None, 1),  # inside out
+        ([side[::-1] for side in SIDES], ["--flip"], WHOLE, 0),
+        ([side[::-1] for side in SIDES], ["--two-sided"], WHOLE, 0),
+        ([*SIDES[:3], *(side[::-1] for side in SIDES[3:])], [], None, 1),
+        ([*SIDES[:3], *(side[::-1] for side in SIDES[3:])], ["--two-sided"], WHOLE, 0),
+        (SIDES, ["--crease", "180"], WHOLE, 0),
+        (SIDES, ["--up", "z"], WHOLE, 0),
+    ],
+)
+def test_which_side_is_shown(polyshade, place: Path, faces, options: list[str], pixels: int | None, hints: int) -> None:
+    """A cube inside out or half of it; what makes it whole, and a line that names that."""
+    (place / "cube.obj").write_text(quads(faces))
+    status, _, err = polyshade("render", "cube.obj", "--size", "128", *options, "--out", "frame")
+    assert status == 0
+    assert err.count("\n") == hints
+    assert err.startswith("polyshade: hint: " * hints)
+    assert "--two-sided" in err or not hints
+    report = sane(place / "frame", hints)
+    assert pixels is None or report["visible_pixels"] == pixels
+    assert not hints or {"mixed_winding", "inward_faces"} & report["repairs"].keys()
+
+
+def test_hard_edges(polyshade, place: Path) -> None:
+    """A cube has flat faces whose light is one value each; a ball's is not."""
+    (place / "cube.obj").write_text(quads(SIDES))
+    levels = {}
+    for name, options in {"default": [], "flat": ["--flat"], "round": ["--crease", "90"]}.items():
+        assert polyshade("render", "cube.obj", "--size", "64", *options, "--out", name).status == 0
+        levels[name] = len(np.unique(np.array(Image.open(place / name / "image.png")).reshape(-1, 3), axis=0))
+    assert levels["default"] == levels["flat"] == 4  # three sides and the background
+    assert levels["round"] > 100
 
 
 def test_every_format(polyshade, place: Path) -> None:
@@ -346,6 +397,22 @@ def test_folders(polyshade, place: Path, out: str) -> None:
     assert status == 0
     assert told.startswith(f"{Path(out)}/image.png: " if Path(out).name else "image.png: ")
     assert set(FILES) <= {path.name for path in (place / out).iterdir()}
+
+
+def test_the_default_folder(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Below build in the repository, below the current folder elsewhere."""
+    (place / "elsewhere").mkdir()
+    monkeypatch.setattr(cli, "BUILD", place / "repository" / "build")
+    monkeypatch.chdir(place / "elsewhere")
+    assert polyshade(*SMALL).out.startswith("render/sphere/image.png: ")
+    sane(place / "elsewhere" / "render" / "sphere")
+
+
+def test_the_folder_is_looked_at_first(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before anything is read or simulated."""
+    monkeypatch.setattr(frame.Settings, "load", failing(frame.Settings.load, AssertionError(), 1))
+    (place / "file").touch()
+    assert refused(polyshade(*SMALL, "--out", "file/below")).startswith("--out file/below: cannot be written")
 
 
 def test_a_folder_keeps_what_else_is_in_it(polyshade, place: Path) -> None:
@@ -472,11 +539,33 @@ BAD_SHAPES = [
     (["-s", "64"], "-s"),
     (["--Size", "64"], "--Size"),
     (["--size:64"], "--size"),
-    (["\u2014size", "64"], "size"),
+    (["\u2014size", "64"], "64"),
+    (["\u2014size"], "size"),
+    (["nowhere.ply"], "nowhere.ply"),
+    (["nowhere.ply", "elsewhere.ply"], "elsewhere.ply"),
     (["--help=1"], "--help"),
     (["--\x1b[31m"], "31m"),
     (["--" + "x" * 5000], "No such option"),
 ]
+OTHER_MESHES = [
+    *((["--crease", value], "--crease") for value in ("-1", "180.1", "nan", "", "sharp")),
+    *((["--up", value], "--up") for value in ("x", "Y", "", "-z")),
+    (["--flat", "--crease", "20"], "--crease: is given beside --flat"),
+    (["--flip=yes"], "--flip"),
+]
+WITHOUT_EFFECT = [
+    *((["--model", "lambert", option, *value], option) for option, value in (
+        ("--shininess", ["8"]), ("--exposure", ["1"]), ("--specular", ["0.5"]), ("--highlight", ["1", "1", "1"]),
+    )),
+    (["--model", "ward", "--shininess", "8"], "--shininess: is without effect on model ward, allowed with --model pho"),
+    (["--roughness", "0.2"], "--roughness: is without effect on model blinn, allowed with --model cook-torrance, ward"),
+    (["--model", "ward", "--f0", "0.1"], "--f0"),
+    (["--model", "schlick", "--energy", "none"], "--energy"),
+    (["--criterion", "0.1"], "--criterion: is without effect on model blinn, allowed with --model lambert"),
+    (["--degree", "2"], "--degree: is without effect on form refined, allowed with --form paper"),
+    (["--path", "normals", "--threshold", "0.5"], "--threshold: is without effect on variant refined"),
+    (["--field-of-view", "30"], "--field-of-view: is without effect on projection orthographic"),
+]  # fmt: skip
 OTHER_PATH = [
     *((["--path", "normals", *option], option[0]) for option in (["--degree", "3"], ["--evaluator", "fdiff"])),
     (["--path", "normals", "--criterion", "0"], "--criterion"),
@@ -526,7 +615,7 @@ BAD_COMMANDS = [
 ]
 BAD_RENDERS = [
     (["render", "--mesh", "sphere", "--size", "16", *options], told)
-    for options, told in [*BAD_NUMBERS, *BAD_NAMES, *BAD_SHAPES, *OTHER_PATH]
+    for options, told in [*BAD_NUMBERS, *BAD_NAMES, *BAD_SHAPES, *OTHER_MESHES, *WITHOUT_EFFECT, *OTHER_PATH]
 ]
 
 

@@ -80,12 +80,15 @@ LOBE_K1_F = 20  # k1 of the shifted x, U1.20 in [0, 2)
 LOBE_K1_W = 21
 LOBE_K2_F = 17  # k2 of the shifted x, S0.17
 LOBE_K2_W = 18
-LOBE_X_F = 16  # the shifted x and xmax, U1.16
+LOBE_X_F = 16  # xmax, U1.16, and the part of the shifted x, U1.20, that a multiplier takes
+LOBE_SLOPE_F = 17  # fraction bits of the shifted x that k2 is multiplied by
 LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 6
 LOBE_POWER_W = 3  # squarings, 0 .. 4; more count as 4
 LOBE_FINE = 7  # this shift means: x as it is, k1 and k2 times 4
 LOBE_FINE_F = 2  # that 4 is 2^2
-LOBE_S_F = 17  # k1 - k2 x of the shifted x, U1.17
+LOBE_S_F = 18  # k1 - k2 x of the shifted x, U1.18; a multiplier takes 17 fraction bits
+LOBE_ROW_F = 7  # fraction bits of it that the last four bits of the shifted x are multiplied by
+LOBE_BIT_F = 4  # fraction bits of the shifted x that its last bit is multiplied by
 LOBE_F = 22  # 1 - base and its powers, U1.22
 LOBE_Z_F = 18  # what is squared, S-1.18 with the last bit set
 GAIN_F = 16  # mantissa of the gain, U1.16 in [1, 2), or 0
@@ -99,6 +102,8 @@ LIGHT_ZERO = 2  # a denominator of 0
 LIGHT_SATURATED = 3  # diffuse or specular light too large
 LIGHT_FLAGS_W = 4
 FRESNEL_F = 18  # fraction bits of the powers of 1 - c
+FOLD_MAX = 8  # clocks an item of units that share multipliers
+PHASE_W = 3  # the clock among these
 
 # ---- spans -----------------------------------------------------------------------------------------------------
 CHANNELS = 2  # diffuse, specular

@@ -167,22 +167,38 @@ def lobe(
 ) -> Int:
     """max(0, 1 - k1 x + k2 x^2)^(2^power), U1.16, of a versine x, U2.20; 0 for x > 1 (``shade_lobe``).
 
-    X = min(x 2^shift, xmax), U1.16, is what k1, U1.20, and k2, S0.17, belong to: those of x, divided by 2^shift and
+    X = min(x 2^shift, xmax), U1.20, is what k1, U1.20, and k2, S0.17, belong to: those of x, divided by 2^shift and
     4^shift. shift = LOBE_FINE: X = x, k1 and k2 are those of x times 4 (below 1/2 and 1/4). ``stages`` are built for
     the squarings (POWER): more than these count as these.
 
-    s = k1 - k2 X is limited to U1.17, y = s X to 1. y, U1.22, is 1 - base, which is squared as y <- 2 y - y^2, from
-    1/2 as y <- 1 - (1 - y)^2: so always a number z < 1/2, cut to 17 fraction bits and its middle taken. All roundings
-    to nearest, ties up. Within 1.6 ulp of the formula, 1.25 for refined fits.
+    y = s X with s = k1 - k2 X, U1.18, is 1 - base, U1.22, which is squared as y <- 2 y - y^2, from 1/2 on as
+    y <- 1 - (1 - y)^2: always a number z < 1/2, of which 17 fraction bits and the middle of the rest are kept. Of X the
+    first 17 fraction bits and the middle of the rest stand in s; of s X the products of last bits are cut to a few
+    leading ones. Roundings to nearest, ties up. Within 1.5 ulp of the formula of these arguments, 1.2 for k2 >= 0, for
+    registers as ``golden.material.lobe_registers`` gives them: xmax not beyond the vertex, the least shift.
 
     >>> int(lobe(1 << 17, 1 << 20, 1 << 15, 1, 131071, 4))  # k1 = 2, k2 = 1: (1 - 1/8)^32 = 0.0139, 914
     914
     """
     x, k1, k2, shift, xmax, power = integers(x, k1, k2, shift, xmax, power)
     fine = shift == k.LOBE_FINE
-    scaled = np.minimum(round(x << np.where(fine, 0, shift), k.VERSINE_F - k.LOBE_X_F), xmax)
-    s = round((k1 << k.LOBE_K2_F + k.LOBE_X_F - k.LOBE_K1_F) - k2 * scaled, k.LOBE_K2_F + k.LOBE_X_F - k.LOBE_S_F)
-    y = round(saturate(s, k.LOBE_S_F + 1) * scaled, k.LOBE_S_F + k.LOBE_X_F - k.LOBE_F)
+    scaled = np.minimum(x << np.where(fine, 0, shift), xmax << k.VERSINE_F - k.LOBE_X_F)
+
+    # k1 and the middle of what k2 is not multiplied by, 21 fraction bits
+    middle = 2 * k1 - (k2 >> k.LOBE_K2_F + k.LOBE_SLOPE_F - k.LOBE_K1_F)
+    product = k2 * (scaled >> k.VERSINE_F - k.LOBE_SLOPE_F)
+    product_f = k.LOBE_K2_F + k.LOBE_SLOPE_F
+    s = round((middle << product_f - k.LOBE_K1_F - 1) - product, product_f - k.LOBE_S_F)
+    s = saturate(s, k.LOBE_S_F + 1)
+
+    # s X of s = s' + the last bit and X = X' + the last four bits: s' X', and of the others what counts
+    first, last = scaled >> k.VERSINE_F - k.LOBE_X_F, scaled & (1 << k.VERSINE_F - k.LOBE_X_F) - 1
+    rows = (s >> k.LOBE_S_F - k.LOBE_ROW_F) * last  # VERSINE_F + LOBE_ROW_F = 27 fraction bits
+    bit = (s & 1) * (first >> k.LOBE_X_F - k.LOBE_BIT_F)  # LOBE_S_F + LOBE_BIT_F = 22
+    total_f = k.LOBE_S_F - 1 + k.LOBE_X_F
+    total = (s >> 1) * first + (rows << total_f - k.VERSINE_F - k.LOBE_ROW_F)
+    y = round(total + (bit << total_f - k.LOBE_S_F - k.LOBE_BIT_F), total_f - k.LOBE_F)
+
     one = 1 << k.LOBE_F
     y = np.where(x > 1 << k.VERSINE_F, one, np.minimum(y >> np.where(fine, k.LOBE_FINE_F, 0), one))
     for stage in range(stages):

@@ -1,6 +1,7 @@
 // Every source of Polyshade, package first, a module before those that use it; paths from the repository's root.
 rtl/shade_pkg.sv
 rtl/fixed/shade_delay.sv
+rtl/fixed/shade_hold.sv
 rtl/fixed/shade_valid.sv
 rtl/fixed/shade_round.sv
 rtl/fixed/shade_saturate.sv

@@ -98,12 +98,15 @@ package shade_pkg;
   localparam int LOBE_K1_W = 21;
   localparam int LOBE_K2_F = 17;  // k2 of the shifted x, S0.17
   localparam int LOBE_K2_W = 18;
-  localparam int LOBE_X_F = 16;  // the shifted x and xmax, U1.16
+  localparam int LOBE_X_F = 16;  // xmax, U1.16, and the part of the shifted x, U1.20, that a multiplier takes
+  localparam int LOBE_SLOPE_F = 17;  // fraction bits of the shifted x that k2 is multiplied by
   localparam int LOBE_SHIFT_W = 3;  // x is shifted left by 0 .. 6
   localparam int LOBE_POWER_W = 3;  // squarings, 0 .. 4; more count as 4
   localparam int LOBE_FINE = 7;  // this shift means: x as it is, k1 and k2 times 4
   localparam int LOBE_FINE_F = 2;  // that 4 is 2^2
-  localparam int LOBE_S_F = 17;  // k1 - k2 x of the shifted x, U1.17
+  localparam int LOBE_S_F = 18;  // k1 - k2 x of the shifted x, U1.18; a multiplier takes 17 fraction bits
+  localparam int LOBE_ROW_F = 7;  // fraction bits of it that the last four bits of the shifted x are multiplied by
+  localparam int LOBE_BIT_F = 4;  // fraction bits of the shifted x that its last bit is multiplied by
   localparam int LOBE_F = 22;  // 1 - base and its powers, U1.22
   localparam int LOBE_Z_F = 18;  // what is squared, S-1.18 with the last bit set
   localparam int GAIN_F = 16;  // mantissa of the gain, U1.16 in [1, 2), or 0
@@ -117,6 +120,8 @@ package shade_pkg;
   localparam int LIGHT_SATURATED = 3;  // diffuse or specular light too large
   localparam int LIGHT_FLAGS_W = 4;
   localparam int FRESNEL_F = 18;  // fraction bits of the powers of 1 - c
+  localparam int FOLD_MAX = 8;  // clocks an item of units that share multipliers
+  localparam int PHASE_W = 3;  // the clock among these
 
   // spans
   localparam int CHANNELS = 2;  // diffuse, specular

@@ -55,7 +55,7 @@ BOUND = {
     "shade_versine": 1 / 2,
     "shade_reflect": 1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
     "shade_halfway": 4.25,  # 1/2, and H's 5/8 times the sum of V's components; of unit vectors at most 1.6, see below
-    "shade_lobe": 1.6,  # 1/2, and 2^power times what s, y and the registers lack near the peak
+    "shade_lobe": 1.5,  # 1/2, and 2^power times what s, y and z lack near the peak
     "shade_fresnel": 1,
     "shade_colour": 1 / 2,
     "shade_angles": 1 / 2,

@@ -30,27 +30,27 @@ module shade_square_fabric #(
       localparam int ALL_W = 2 * (WIDTH - first);
       localparam int SUM_W = WIDTH - first + 1 + SPAN;
       localparam int W = SUM_W < ALL_W ? SUM_W : ALL_W;
-      logic [W-1:0] sum;
+      logic [W-1:0] total;
       if (level == 0) begin : g_row
         if (first < ROWS - 1) begin : g_bit
-          assign sum = W'({x_i[WIDTH-1:first+1], 2'b01}) & {W{x_i[first]}};
+          assign total = W'({x_i[WIDTH-1:first+1], 2'b01}) & {W{x_i[first]}};
         end else begin : g_two
-          assign sum = {&x_i[WIDTH-1-:2], x_i[WIDTH-1] && !x_i[WIDTH-2], 1'b0, x_i[WIDTH-2]};
+          assign total = {&x_i[WIDTH-1-:2], x_i[WIDTH-1] && !x_i[WIDTH-2], 1'b0, x_i[WIDTH-2]};
         end
       end else begin : g_add
         localparam int LATER = first + SPAN / 2;
         if (LATER < ROWS) begin : g_pair
           // the lower bits of the first are those of the sum: the adder is that much shorter
           always_ff @(posedge clk_i) begin
-            sum[SPAN-1:0] <= g_level[level-1].g_sum[first].sum[SPAN-1:0];
-            sum[W-1:SPAN] <= (W - SPAN)'(g_level[level-1].g_sum[first].sum >> SPAN)
-                           + (W - SPAN)'(g_level[level-1].g_sum[LATER].sum);
+            total[SPAN-1:0] <= g_level[level-1].g_sum[first].total[SPAN-1:0];
+            total[W-1:SPAN] <= (W - SPAN)'(g_level[level-1].g_sum[first].total >> SPAN)
+                           + (W - SPAN)'(g_level[level-1].g_sum[LATER].total);
           end
         end else begin : g_single
-          always_ff @(posedge clk_i) sum <= W'(g_level[level-1].g_sum[first].sum);
+          always_ff @(posedge clk_i) total <= W'(g_level[level-1].g_sum[first].total);
         end
       end
     end
   end
-  assign y_o = g_level[LEVELS].g_sum[0].sum;
+  assign y_o = g_level[LEVELS].g_sum[0].total;
 endmodule

@@ -82,8 +82,7 @@ module shade_weigh #(
   end
 
   // node n adds its children 2 n and 2 n + 1; node 1 is the root
-  logic [LEAVES*SUM_W-1:0] sum_q;
-  assign sum_q[0+:SUM_W] = '0;
+  logic [LEAVES*SUM_W-1:SUM_W] sum_q;
   for (genvar n = 1; n < LEAVES; n++) begin : g_node
     logic [SUM_W-1:0] a, b;
     if (n < LEAVES / 2) begin : g_inner
@@ -95,5 +94,5 @@ module shade_weigh #(
   end
   assign w_o = sum_q[SUM_W+DROP+:OUT_W];
   logic unused_fraction;
-  assign unused_fraction = &{1'b0, sum_q[0+:SUM_W+DROP]};
+  assign unused_fraction = &{1'b0, sum_q[SUM_W+:DROP]};
 endmodule

@@ -133,8 +133,7 @@ module shade_light_folded #(
   // ---- lobe: taken in clock 12, given in clock 12 + LATENCY_LOBE_FOLDED = 45 -------------------------------------
   logic [C_W-1:0] lobe;
   shade_lobe #(.FOLD(6)) u_lobe (
-    .clk_i, .rst_i, .valid_i(1'b1), .ready_o(), .x_i(x_q), .k1_i, .k2_i, .shift_i, .xmax_i, .power_i, .valid_o(),
-    .lobe_o(lobe)
+    .clk_i, .phase_i(phase_q), .x_i(x_q), .k1_i, .k2_i, .shift_i, .xmax_i, .power_i, .lobe_o(lobe)
   );
   logic range_late;
   localparam int RANGE_PLACES = 6;

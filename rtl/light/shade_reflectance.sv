@@ -94,8 +94,7 @@ module shade_reflectance #(
   logic signed [E_W-1:0] e;
   logic zero, lost_late, lost_q;
   shade_lobe u_lobe (
-    .clk_i, .rst_i, .valid_i(1'b0), .k1_i, .k2_i, .shift_i, .xmax_i, .power_i, .x_i(x), .ready_o(), .valid_o(),
-    .lobe_o(lobe)
+    .clk_i, .phase_i('0), .k1_i, .k2_i, .shift_i, .xmax_i, .power_i, .x_i(x), .lobe_o(lobe)
   );
   shade_delay #(.WIDTH(C_W), .DEPTH(FACTOR - 1 - LOBE)) u_wait_lobe (.clk_i, .d_i(lobe), .q_o(lobe_late));
   shade_delay #(.WIDTH(1), .DEPTH(FACTOR - 1)) u_lost (.clk_i, .d_i(lost), .q_o(lost_late));

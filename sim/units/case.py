@@ -93,7 +93,8 @@ class Case:
         total = Result(latency=self.latency)
         for inputs in self.stream(vectors, seed):
             rows = len(next(iter(inputs.values())))
-            run = model.run(latency=fixed_latency, seed=seed, **inputs)
+            pace = self.clocks_per_vector if model.interface.phase else 1
+            run = model.run(latency=fixed_latency, pace=pace, seed=seed, **inputs)
             result = Result(vectors=rows, latency=self.latency, throughput=rows / (run.clocks - self.latency))
             golden = self.golden(inputs)
             self._compare(model, inputs, golden, run, result)

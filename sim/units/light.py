@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 
 import numpy as np
@@ -95,44 +95,98 @@ def _highlights(form: str, stages: int) -> dict[tuple[int, ...], Highlight]:
     }
 
 
-def _lobe(form: str) -> Iterator[Case]:
-    """Every cosine for 41 highlights, one after the other: registers stay as they are while values are in flight."""
+def lobe_latency(stages: int, fold: int) -> int:
+    """Clocks of ``shade_lobe``."""
+    if fold == 1:
+        return k.LATENCY_LOBE - (4 - stages) * (k.LATENCY_SQUARE_FABRIC + 2)
+    turn = k.LATENCY_MUL + 3 + (fold == 5)
+    return 3 + (2 + stages) * turn - (fold == 5)
 
-    def case(stages: int, fold: int, latency: int) -> Case:
+
+def exact_lobe(x, k1: int, k2: int, shift: int, xmax: int, power: int) -> np.ndarray:
+    """The lobe as a number from its arguments as they are, of x U2.20, by its formula alone."""
+    fine = shift == k.LOBE_FINE
+    x = np.ldexp(np.asarray(x, Real), -k.VERSINE_F)
+    scaled = np.minimum(np.ldexp(x, 0 if fine else shift), Real(xmax) / (1 << k.LOBE_X_F))
+    slope = Real(k1) / (1 << k.LOBE_K1_F) - Real(k2) / (1 << k.LOBE_K2_F) * scaled
+    base = 1 - slope * scaled / (1 << k.LOBE_FINE_F if fine else 1)
+    base = np.where(x > 1, 0, base.clip(0, 1))
+    for _ in range(power):
+        base = base * base
+    return base
+
+
+def _lobe(form: str) -> Iterator[Case]:
+    """Highlights from the broadest to the sharpest, and any registers that ``lobe_registers`` gives.
+
+    Registers stay as they are while values are in flight, so each run has its own. Of every stage and fold values of
+    every size for each highlight; with all stages and unfolded every versine there is for some of them.
+    """
+    one, most = 1 << k.VERSINE_F, 2 << k.VERSINE_F
+
+    def inputs(x: np.ndarray, registers: tuple[int, ...]) -> Arrays:
+        named = zip(light.LOBE, registers, strict=True)
+        return {"x_i": x} | {f"{name}_i": np.full_like(x, value) for name, value in named}
+
+    def some(rng: np.random.Generator, rows: int) -> np.ndarray:
+        """Versines of every size, all the smallest ones, and around 1 and 2."""
+        x = rng.integers(0, most, rows, endpoint=True) >> np.maximum(rng.integers(-2, 19, rows), 0)
+        x[:96] = np.r_[np.arange(64), one + np.arange(-8, 8), most - np.arange(16)]
+        return x
+
+    def case(stages: int, fold: int, note: str, vectors: Callable, more: Callable | None = None) -> Case:
         highlights = _highlights(form, stages)
 
-        def vectors() -> Iterator[Arrays]:
-            x = (ONE - np.arange(ONE + 1)) << k.VERSINE_F - k.INTENSITY_F
-            for registers in highlights:
-                yield {"x_i": x} | {
-                    f"{name}_i": np.full_like(x, value) for name, value in zip(light.LOBE, registers, strict=True)
-                }
+        def registers(i: Arrays) -> tuple[int, ...]:
+            return tuple(int(i[f"{name}_i"][0]) for name in light.LOBE)
 
         def golden(i: Arrays) -> Arrays:
-            return {"lobe_o": light.lobe(*(i[f"{name}_i"] for name in ("x", *light.LOBE)), stages)}
-
-        def highlight(i: Arrays) -> tuple[np.ndarray, Highlight]:
-            registers = tuple(int(i[f"{name}_i"][0]) for name in light.LOBE)
-            return np.ldexp(i["x_i"].astype(Real), -k.VERSINE_F), highlights[registers]
+            return {"lobe_o": light.lobe(i["x_i"], *registers(i), stages)}
 
         def exact(i: Arrays) -> Arrays:
-            x, chosen = highlight(i)
-            k1, k2, xmax, power = material.fit(*chosen, form, stages)
-            x = np.minimum(x, xmax)
-            return {"lobe_o": np.maximum(1 - k1 * x + k2 * x * x, 0) ** (1 << power) * ONE}
+            *k12, power = registers(i)
+            return {"lobe_o": exact_lobe(i["x_i"], *k12, min(power, stages)) * ONE}
 
         def ideal(i: Arrays) -> Arrays:
-            x, (model, n, m) = highlight(i)
+            """The highlight that the registers stand for."""
+            model, n, m = highlights[registers(i)]
+            x = np.ldexp(np.minimum(i["x_i"], one).astype(float), -k.VERSINE_F)
             return {"lobe_o": material.shape(model, x, n, m) * ONE}
 
         return Case(
-            "shade_lobe", form, {"POWER": stages, "FOLD": fold}, golden, exact, ideal, None, vectors, latency, fold
-        )
+            "shade_lobe", form, {"POWER": stages, "FOLD": fold}, golden, exact, ideal if more is None else exact, more,
+            vectors, lobe_latency(stages, fold), fold, chunk=1 << 12, note=note,
+        )  # fmt: skip
 
-    for stages in (4, 3, 2):
-        less = 4 - stages
-        yield case(stages, 1, k.LATENCY_LOBE - less * (k.LATENCY_SQUARE_FABRIC + 2))
-        yield case(stages, 6, k.LATENCY_LOBE_FOLDED - less * (k.LATENCY_MUL + 3))
+    def of(stages: int, step: int, make: Callable[[np.random.Generator], np.ndarray]) -> Callable:
+        """A run for every ``step``-th highlight."""
+
+        def vectors() -> Iterator[Arrays]:
+            rng = np.random.default_rng(1)
+            for registers in list(_highlights(form, stages))[::step]:
+                yield inputs(make(rng), registers)
+
+        return vectors
+
+    def any_registers(rng: np.random.Generator, rows: int) -> Arrays:
+        """k2 of no, either and the greatest amount; xmax at the vertex."""
+        while True:
+            k1 = 2 ** rng.uniform(-7, 6.9) * rng.integers(0, 8).clip(0, 1)
+            k2 = (0, k1 * k1 / 2 * rng.uniform(0, 1.2), -(2 ** rng.uniform(-6, 11)))[rng.integers(0, 3)]
+            xmax = min(1, k1 / 2 / k2) if k2 > 0 else 1
+            try:
+                words = material.lobe_registers(k1, k2, xmax, int(rng.choice([4, 4, 4, 0, 1, 2, 3, 7])))
+            except ValueError:
+                continue
+            steep = int(one * min(1, 4 / (16 * k1 + 1)))  # where the lobe falls
+            x = some(rng, rows)
+            return inputs(np.where(rng.random(rows) < 0.5, rng.integers(0, steep + 1, rows), x), tuple(words.values()))
+
+    if form == "refined":
+        yield case(4, 1, "every versine", of(4, 8, lambda rng: np.arange(most + 1)))
+        yield case(4, 1, "any registers", None, any_registers)
+    for stages, fold in ((4, 1), (3, 1), (2, 1), *((4, fold) for fold in range(2, 9)), (3, 6), (2, 6), (3, 3), (2, 5)):
+        yield case(stages, fold, "", of(stages, 1, lambda rng, f=fold: some(rng, (1 << 15) // f)))
 
 
 def _fresnel(form: str) -> Iterator[Case]:

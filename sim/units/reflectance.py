@@ -159,6 +159,17 @@ def _dot(a, b) -> np.ndarray:
     return (_sum(np.asarray(a, Real), b) / ONE).clip(*LIMITS) / ONE
 
 
+def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: int) -> Arrays:
+    """Arguments of ``shade_gain`` whose product is 2, less up to an ulp, and those beside them; one in eight any."""
+    lobe, (low, high) = rng.integers(ONE // 2, ONE, rows, endpoint=True), signed_range(k.FACTOR_EXP_W)
+    above = rng.integers(1, 4, rows)  # 2^above (lobe num gain) is to be 2
+    target = ((2 << 2 * k.INTENSITY_F + k.GAIN_F) - (1 << 2 * k.GAIN_F)) >> above
+    num = -(-target // (lobe * mantissa)) + rng.integers(-1, 1, rows, endpoint=True)
+    e = np.where(rng.random(rows) < 1 / 8, rng.integers(low, high, rows, endpoint=True), above - exponent)
+    values = {"lobe": lobe, "num": num.clip(0, ONE), "fresnel": ONE, "w": 0, "e": e.clip(low, high)}
+    return {f"{name}_i": np.broadcast_to(value, rows) for name, value in values.items()}
+
+
 # ---- the units ---------------------------------------------------------------------------------------------------
 
 
@@ -238,6 +249,11 @@ def _factors(form: str) -> Iterator[Case]:
         gain = int(rng.integers(1 << k.GAIN_F, 2 << k.GAIN_F))
         return ports(rows, gain=gain, gain_exp=exponent) | sized(rng, rows, "lobe", "num", "fresnel") | w | {"e_i": e}
 
+    def brim(rng: np.random.Generator, rows: int) -> Arrays:
+        """Light that rounds up to 2, or just does not."""
+        exponent, mantissa = int(rng.integers(*signed_range(k.GAIN_EXP_W))), int(rng.integers(ONE, 2 * ONE))
+        return ports(rows, gain=mantissa, gain_exp=exponent) | to_the_brim(rng, rows, mantissa, exponent)
+
     def gain(i: Arrays) -> Arrays:
         values = light.gain(*(i[f"{name}_i"] for name in ("lobe", "num", "w", "e", "fresnel", "gain", "gain_exp")))
         return dict(zip(("s_o", "saturated_o"), values, strict=True))
@@ -248,7 +264,8 @@ def _factors(form: str) -> Iterator[Case]:
         value = amplified(i["lobe_i"], i["num_i"], i["fresnel_i"], factor, i["gain_i"][0], 0)
         return gain(i) | {"s_o": value}
 
-    yield Case("shade_gain", form, {}, gain, product, product, factors, None, k.LATENCY_GAIN, chunk=FEW)
+    for vectors, note in ((factors, ""), (brim, "brim")):
+        yield Case("shade_gain", form, {}, gain, product, product, vectors, None, k.LATENCY_GAIN, chunk=FEW, note=note)
 
 
 def _nodes(form: str) -> Iterator[Case]:

@@ -1,7 +1,9 @@
 """shade_gain: lobe times factors and gain, saturated, to the bit of golden.light.gain, on every clock."""
 
+import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden.light import gain
+from polyshade.sim.units.reflectance import to_the_brim
 
 from tb.bench import TRAFFIC, Bench, checked
 from tb.light.vectors import setting, unit_numbers
@@ -10,6 +12,20 @@ from tb.runner import simulate
 
 def test_cocotb():
     simulate("shade_gain", {})
+
+
+@checked()
+async def brim(bench: Bench) -> None:
+    """Light that rounds up to 2, where it saturates, and that just does not; the ends of every exponent."""
+    lowest = -(1 << k.GAIN_EXP_W - 1)
+    for exponent, mantissa in ((0, 97775), (lowest, 65536), (-lowest - 1, 131071), (3, 65537), (-3, 92682)):
+        setting(bench, gain=mantissa, gain_exp=exponent)
+        inputs = {name: np.array(v) for name, v in to_the_brim(bench.rng, 150, mantissa, exponent).items()}
+        for row, values in enumerate([(10572, 17019, 65536, 0, 5), (65536, 65536, 65536, 0, 0), (65536,) * 3 + (0, 1)]):
+            for name, value in zip(inputs, values, strict=True):
+                inputs[name][row] = value
+        values = gain(*(inputs[f"{name}_i"] for name in ("lobe", "num", "w", "e", "fresnel")), mantissa, exponent)
+        await bench.pipeline(inputs, dict(zip(("s_o", "saturated_o"), values, strict=True)), k.LATENCY_GAIN)
 
 
 @checked(**TRAFFIC)

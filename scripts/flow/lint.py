@@ -31,6 +31,7 @@ from polyshade.scripts.flow.points import REFUSED, points
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources
 from polyshade.sim.tools import environment
+from polyshade.sim.tools import verilator as installed
 from polyshade.sim.verilate import reached
 from tqdm import tqdm
 
@@ -149,7 +150,7 @@ def yosys(module: str, point: Point) -> list[str]:
 def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
     options = [f"-G{name}={value}" for name, value in point.items()]
     files = ["rtl/lint.vlt", "-f", "rtl/shade.f"]
-    command = ["verilator", "--lint-only", "-Wall", "--top-module", module, *options, *files]
+    command = [installed().program, "--lint-only", "-Wall", "--top-module", module, *options, *files]
     return subprocess.run(command, cwd=ROOT, env=environment(), capture_output=True, text=True)
 
 

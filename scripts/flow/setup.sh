@@ -14,8 +14,19 @@ refuse() {
 
 have() { command -v "$1" >/dev/null 2>&1; }
 
+# Paths go through PATH, C++ and Tcl; a space or a letter of any language is fine there.
+case $PWD in *[:\"\\\$\`]*) refuse "folder: $PWD: has one of : \" \\ \$ \`, clone into one without" ;; esac
 [ "$(uname -sm)" = "Linux x86_64" ] || refuse "machine: $(uname -sm), the pinned wheels are for Linux x86_64"
 
+shared='
+import ctypes, os, sys, sysconfig
+found = [sysconfig.get_config_var(name) or "" for name in ("LIBDIR", "INSTSONAME")]
+name = "libpython%d.%d.so.1.0" % sys.version_info[:2]
+try:
+    ctypes.CDLL(name)
+except OSError:
+    sys.exit(sys.base_prefix == "/usr" and not os.path.exists(os.path.join(*found)))
+'
 missing=""
 for program in git make g++ perl; do
     have "$program" || missing="$missing $program"
@@ -29,8 +40,13 @@ if have "$python"; then
         refuse "$python: Python $found, allowed 3.11 to 3.14 (choose one with: make PYTHON=python3.12)"
     # Debian ships the module, but keeps what fills a new environment in a package of its own.
     "$python" -c 'import ensurepip, venv' 2>/dev/null || missing="$missing $(basename "$python")-venv"
+    # The tests run Python inside of the simulator. Debian's own Python comes without its shared library.
+    "$python" -c "$shared" 2>/dev/null || missing="$missing libpython$found"
 elif [ "$python" = python3 ]; then
     missing="$missing python3 python3-venv"
+    for word in $(apt-cache depends python3 2>/dev/null || true); do
+        case $word in python3.[0-9]*) missing="$missing lib$word" && break ;; esac
+    done
 else
     refuse "PYTHON=$python: no such program"
 fi

@@ -891,6 +891,75 @@ def test_process_without_a_simulator(tmp_path: Path) -> None:
     assert listing(tmp_path) == {}
 
 
+STRANGE = "with space \u00fc"
+
+
+def test_process_in_another_cache(tmp_path: Path) -> None:
+    """A folder with a space and a letter beyond ASCII; once it is filled nothing is written there, nor a lock."""
+    cache, out = tmp_path / STRANGE, tmp_path / "out"
+    point = 'from polyshade import sim; print(sim.load("shade_third").run(x_i=[3, 6]).y_o.tolist())'
+    for _ in range(2):
+        done = subprocess.run(
+            [sys.executable, "-c", point], cwd=ROOT, env={**os.environ, "POLYSHADE_CACHE": str(cache)},
+            capture_output=True, text=True, timeout=300,
+        )  # fmt: skip
+        assert (done.stdout, done.stderr) == ("[1, 2]\n", "")
+        for lock in cache.glob("*.lock"):
+            lock.unlink()
+        before = listing(cache)
+        assert before
+        cache.chmod(0o555)
+    cache.chmod(0o755)
+    assert listing(cache) == before
+    (tmp_path / "file").touch()
+    done = process(*SMALL, "--out", str(out), POLYSHADE_CACHE=str(tmp_path / "file" / "cache"))
+    told = refused(Outcome(done.returncode, done.stdout, done.stderr))
+    assert told.endswith("choose another folder by POLYSHADE_CACHE")
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("moment", ["click", "numpy", "polyshade.sim.batch"])
+def test_process_interrupted_while_it_begins(tmp_path: Path, moment: str) -> None:
+    """Control-C while modules are imported: the very one that arrives when this module is looked for."""
+    code = f"""
+import signal, sys
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == {moment!r}:
+            signal.raise_signal(signal.SIGINT)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Finder())
+sys.argv = ["polyshade", "render", "--size", "16", "--out", {str(tmp_path / "out")!r}]
+from polyshade.scripts import start
+start.main()
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "polyshade: interrupted\n")
+    assert listing(tmp_path) == {}
+
+
+def test_process_interrupted_with_frames(tmp_path: Path) -> None:
+    """Control-C reaches every process of the group, workers too; one line comes of it."""
+    code = f"""
+import os, signal, sys, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.argv = ["polyshade", "render", "sphere", "--size", "16", "--frames", "3000", "--out", {str(tmp_path / "out")!r}]
+from polyshade.scripts import start
+from polyshade.sim import batch
+true = batch.distributed.as_completed
+def watched(futures):
+    threading.Timer(1, os.killpg, (os.getpgid(0), signal.SIGINT)).start()
+    return true(futures)
+batch.distributed.as_completed = watched
+start.main()
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=300, start_new_session=True
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "polyshade: interrupted\n")
+    assert listing(tmp_path) == {}
+
+
 def test_process_interrupted(tmp_path: Path) -> None:
     """Control-C in the middle of a frame, held up by a simulator that does not answer."""
     slow = tmp_path / "verilator"

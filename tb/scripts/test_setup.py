@@ -68,6 +68,15 @@ def test_missing_programs_are_named_at_once(tmp_path, missing: tuple[str, ...], 
         ({"g++": "exit 1"}, "g++: no C++17, allowed g++ 8 or newer"),
         ({"uname": "echo Linux aarch64"}, "machine: Linux aarch64, the pinned wheels are for Linux x86_64"),
         (
+            {"python3": 'case "$2" in *ctypes*) exit 1;; esac; echo 3.11'},
+            "missing: libpython3.11, install with: apt-get install -y libpython3.11",
+        ),
+        (
+            {"python3": 'case "$2" in *ensurepip* | *ctypes*) exit 1;; esac; echo 3.12', "perl": "exit 2"},
+            "missing: perl python3-venv libpython3.12, "
+            "install with: apt-get install -y perl python3-venv libpython3.12",
+        ),
+        (
             {"python3": 'case "$2" in *ensurepip*) exit 1;; esac; echo 3.11'},
             "missing: python3-venv, install with: apt-get install -y python3-venv",
         ),
@@ -80,6 +89,23 @@ def test_missing_programs_are_named_at_once(tmp_path, missing: tuple[str, ...], 
 def test_programs_that_do_not_do(tmp_path, changes: dict[str, str], message: str) -> None:
     """Perl without its modules, an old compiler, another machine, Debian's Python without venv, an old Python."""
     assert refusal(setup(tmp_path, everything(**changes))) == message
+
+
+@pytest.mark.parametrize("name", ["a:b", 'a"b', "a\\b", "a$b", "a`b"])
+def test_folders_that_tools_take_apart(tmp_path, name: str) -> None:
+    """Refused before anything is set up."""
+    script = tmp_path / name / "scripts" / "flow" / "setup.sh"
+    script.parent.mkdir(parents=True)
+    shutil.copy(ROOT / "scripts" / "flow" / "setup.sh", script)
+    done = subprocess.run(["/bin/sh", script], capture_output=True, text=True)
+    assert refusal(done).startswith(f"folder: {tmp_path}")
+
+
+def test_the_library_of_a_missing_python(tmp_path) -> None:
+    """Named with it, if the machine knows which one would come."""
+    programs = everything(**{"apt-cache": "echo '  Depends: python3.11'"})
+    del programs["python3"]
+    assert refusal(setup(tmp_path, programs)).endswith("apt-get install -y python3 python3-venv libpython3.11")
 
 
 def test_python_can_be_chosen(tmp_path) -> None:

@@ -666,13 +666,13 @@ def test_compiled_once(fresh: Path, toy: Callable, compiled: list[str], monkeypa
         assert sim.load("shade_adder").run(a_i=1, b_i=2).sum_o.tolist() == [3]
         return compiled[:]
 
-    assert load() == ["verilator", "verilator", "g++"]
+    assert load() == ["verilator_bin", "verilator_bin", "g++"]
     assert load() == []
     assert sim.load("shade_adder") is sim.load("shade_adder")
     other.write_text(other.read_text() + "\n")
     assert load() == []  # it has no part in the module
     source.write_text("// another comment\n" + source.read_text())
-    assert load() == ["verilator", "verilator", "g++"]
+    assert load() == ["verilator_bin", "verilator_bin", "g++"]
     kept = [path.name for path in fresh.iterdir() if path.is_dir()]
     assert len(kept) == 2
     assert all(name.startswith("shade_adder-") for name in kept)

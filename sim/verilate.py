@@ -262,7 +262,10 @@ def build(
                  "-o", "model.so", "all.cpp", *sorted(common.glob("*.o")), "-pthread"],
                 scratch,
             )  # fmt: skip
-    found = json.loads((path / "ports.json").read_text())
-    return path / "model.so", [
-        Port(**port | {"fields": tuple(Field(**field) for field in port["fields"])}) for port in found
-    ]
+    return path / "model.so", known_ports(path / "model.so")
+
+
+def known_ports(library: Path) -> list[Port]:
+    """The ports of the module in a library that was built."""
+    found = json.loads(library.with_name("ports.json").read_text())
+    return [Port(**port | {"fields": tuple(Field(**field) for field in port["fields"])}) for port in found]

@@ -6,10 +6,13 @@ clock n shows at an output of latency L when clock n + L is over.
 """
 
 import functools
+import os
 import random
 import re
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 
 import cocotb
 import numpy as np
@@ -18,6 +21,7 @@ from cocotb.handle import HierarchyObject, ValueObjectBase
 from cocotb.simtime import get_sim_time
 from cocotb.triggers import FallingEdge, RisingEdge, Timer
 from numpy.typing import ArrayLike
+from polyshade.sim.verilate import known_ports
 
 PERIOD = 10  # of the clock, in ns
 PATIENCE = 200_000  # clocks after which a test is over
@@ -55,6 +59,15 @@ def checked(**options: Sequence) -> Callable:
     return decorate
 
 
+@dataclass(eq=False)
+class Column:
+    """Bits of a port, row by row; ``mask``: those that have a meaning."""
+
+    port: ValueObjectBase
+    rows: list[int]
+    mask: int
+
+
 class Bench:
     """A module under test. ``rng`` is NumPy's generator, seeded for this test, as ``random`` is by cocotb."""
 
@@ -62,6 +75,7 @@ class Bench:
         self.dut = dut
         self.rng = np.random.default_rng(cocotb.RANDOM_SEED)
         self.checks = 0
+        self.ports = {port.name: port for port in known_ports(Path(os.environ["MODEL"]))}
 
     @property
     def clock(self) -> int:
@@ -121,6 +135,20 @@ class Bench:
             shown, wanted = (f"0x{n & (1 << bits) - 1:0{-(-bits // 4)}x}" if bits else n for n in (actual, expected))
             raise Mismatch(f"{what} is {shown}, expected {wanted} (clock {self.clock})")
 
+    def columns(self, values: Mapping[str, ArrayLike]) -> list[Column]:
+        """Rows of numbers as bits of ports, by the names of ports, of structures by those of fields: ``n_i.x``."""
+        found: dict[str, Column] = {}
+        for name, numbers in values.items():
+            port, part, _ = name.partition(".")
+            handle = getattr(self.dut, port)
+            field = next((f for f in self.ports[port].fields if f.name == name), None)
+            lsb, width = (field.lsb, field.width) if part else (0, len(handle))
+            bits = _bits(name, numbers, width)
+            column = found.setdefault(port, Column(handle, [0] * len(bits), 0))
+            column.rows = [old | new << lsb for old, new in zip(column.rows, bits, strict=True)]
+            column.mask |= (1 << width) - 1 << lsb
+        return list(found.values())
+
     async def pipeline(
         self,
         inputs: Mapping[str, ArrayLike],
@@ -130,41 +158,68 @@ class Bench:
         gap: float = 0.0,
         reset: float = 0.0,
         late: Mapping[str, int] | None = None,
+        pace: int = 1,
     ) -> None:
         """Send rows through a pipeline of fixed latency and check all outputs on every clock.
 
-        ``inputs``, ``outputs``: by port, numbers (rows,). ``gap``: probability of a clock without a row, with random
-        bits at the inputs; ``reset``: of a clock in reset, which loses what is in the pipeline. ``late``: inputs that
-        are taken so many clocks after the others. ``valid_i``, ``valid_o``, ``rst_i`` are served if there.
+        ``inputs``, ``outputs``: as :meth:`columns` takes them; an input that is the same in all rows is a setting, at
+        rest throughout. ``gap``: probability of a clock without a row, with random bits at the inputs; ``reset``: of a
+        clock in reset, which loses what is in the pipeline. ``late``: inputs that are taken so many clocks after the
+        others. ``pace``: clocks a row, where it is more than one: the module takes a row when ``ready_o``, or when
+        ``phase_i``, which counts its clocks, is 0. ``valid_i``, ``valid_o``, ``rst_i`` are served if there.
         """
         dut, late = self.dut, late or {}
-        entries = [(getattr(dut, name), patterns(getattr(dut, name), values)) for name, values in inputs.items()]
-        exits = [(getattr(dut, name), patterns(getattr(dut, name), values)) for name, values in outputs.items()]
-        valid, resettable = hasattr(dut, "valid_i"), hasattr(dut, "rst_i")
+        entries, exits = self.columns(inputs), self.columns(outputs)
+        valid, resettable, phased = (hasattr(dut, name) for name in ("valid_i", "rst_i", "phase_i"))
+        ready = dut.ready_o if hasattr(dut, "ready_o") else None
+        total = len(entries[0].rows)
+        settings = [column for column in entries if total > 1 and len(set(column.rows)) == 1]
+        moving = [(column, late.get(column.port._name, 0)) for column in entries if column not in settings]
+        for column in settings:
+            column.port.value = column.rows[0]
 
-        waiting = deque(range(len(entries[0][1])))
-        sent: list[int | None] = [None] * (latency + 1)  # the row of every clock so far
-        while waiting or any(row is not None for row in sent[-latency - 3 :]):
-            sent.append(waiting.popleft() if waiting and random.random() >= gap else None)
+        waiting = deque(range(total))
+        taken: list[int | None] = [None] * (latency + 1 + max(late.values(), default=0))  # the row of every clock
+        clocks, since, offered = 0, pace, 0  # since the last row was taken; in which the next one has been offered
+        while waiting or any(row is not None for row in taken[-latency - 3 :]):
+            offer = waiting[0] if waiting and (offered or random.random() >= gap) else None
             in_reset = resettable and bool(waiting) and random.random() < reset
-            for port, values in entries:
-                row = sent[-1 - late.get(port._name, 0)]
-                port.value = random.getrandbits(len(port)) if row is None else values[row]
+            phase = clocks % pace
+            for column, behind in moving:
+                row = taken[-behind] if behind else offer
+                column.port.value = random.getrandbits(len(column.port)) if row is None else column.rows[row]
             if valid:
-                dut.valid_i.value = sent[-1] is not None
+                dut.valid_i.value = offer is not None
             if resettable:
                 dut.rst_i.value = in_reset
+            if phased:
+                dut.phase_i.value = phase
             await self.tick()
+            clocks += 1
+            since += 1
 
-            row = sent[-1 - latency]
+            take = offer is not None and (int(ready.value) if ready is not None else not (phased and phase))
+            if ready is not None and offer is not None:
+                self.equal(offered < pace and (not take or since >= pace), True, f"row {offer}: a row in {pace} clocks")
+            offered = 0 if take or offer is None else offered + 1
+            if take:
+                waiting.popleft()
+                since = 0
+            taken.append(offer if take else None)
+            row = taken[-1 - latency]
             if valid:
                 self.equal(int(dut.valid_o.value), row is not None, f"row {row}: valid_o")
             if row is not None:
-                given = ", ".join(f"{port._name} = {values[row]:#x}" for port, values in entries)
-                for port, values in exits:
-                    self.equal(int(port.value), values[row], f"row {row} ({given}): {port._name}", len(port))
+                for column in exits:
+                    actual = int(column.port.value) & column.mask
+                    if actual != column.rows[row]:
+                        given = ", ".join(f"{c.port._name} = {c.rows[row]:#x}" for c in entries)
+                        self.equal(
+                            actual, column.rows[row], f"row {row} ({given}): {column.port._name}", len(column.port)
+                        )
+                self.checks += len(exits)
             if in_reset:
-                sent = [None] * len(sent)
+                taken, since, offered = [None] * len(taken), pace, 0
 
 
 class Source:
@@ -257,9 +312,15 @@ def scramble(port: ValueObjectBase) -> None:
 
 def patterns(port: ValueObjectBase, values: ArrayLike) -> list[int]:
     """Numbers as bits of a port, which counts as signed if one of them is negative. ValueError if they do not fit."""
+    return _bits(port._name, values, len(port))
+
+
+def _bits(name: str, values: ArrayLike, width: int) -> list[int]:
+    """Numbers, or rows of words of 32 bits, as so many bits."""
     values = np.asarray(values)
-    bits = len(port)
-    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if values.min() < 0 else (0, (1 << bits) - 1)
+    if values.ndim > 1:
+        return [int.from_bytes(row.astype("<u4").tobytes(), "little") for row in values]
+    low, high = (-(1 << width - 1), (1 << width - 1) - 1) if values.min() < 0 else (0, (1 << width) - 1)
     if values.min() < low or values.max() > high:
-        raise ValueError(f"{port._name}: {values.min()} .. {values.max()} do not fit {bits} bits")
-    return [value & (1 << bits) - 1 for value in values.tolist()]
+        raise ValueError(f"{name}: {values.min()} .. {values.max()} do not fit {width} bits")
+    return [value & (1 << width) - 1 for value in values.tolist()]

@@ -5,7 +5,8 @@ function, which calls :func:`simulate` for every parameter point. ``build/test/<
 results and the waveform of the last run.
 
 The environment decides on ``SEED`` (default 1), from which all random numbers of cocotb, of NumPy and in registers
-that are not reset come, on ``WAVES=1`` (a VCD waveform) and, as always with cocotb, on ``COCOTB_TEST_FILTER``.
+that are not reset come, on ``FULL=1`` (every parameter point, all vectors: ``make test-all``), on ``WAVES=1`` (a VCD
+waveform) and, as always with cocotb, on ``COCOTB_TEST_FILTER``.
 """
 
 import contextlib
@@ -27,6 +28,7 @@ from polyshade.sim.sources import BUILD, Point, label, modules
 SEED = int(os.environ.get("SEED", "1"))
 WAVES = os.environ.get("WAVES", "0") not in ("", "0")
 TESTS = BUILD / "test"
+FULL = os.environ.get("FULL", "0") not in ("", "0")
 HANGS = 600  # seconds after which a process is given up: ten times what the slowest needs, never a measure of speed
 
 # Registers that are not reset start with random bits: a missing reset shows.
@@ -41,11 +43,12 @@ def simulate(module: str, point: Point, bench: str = "", public: tuple[str, ...]
     or writes inside of the module.
     """
     name = "-".join([module, *(f"{name}{value}" for name, value in point.items()), *["waves"] * WAVES])
-    folder = TESTS / bench / name
+    folder = TESTS / name
     folder.mkdir(parents=True, exist_ok=True)
     bench = bench or f"tb.{modules()[module].parent.name}.test_{module.removeprefix('shade_')}"
     with _locked(folder), mock.patch.dict(os.environ, tools.environment()):
         library, _ = verilate.build(module, point, glue, waves=WAVES, public=public)
+        os.environ |= {"MODEL": str(library), "POINT": label(module, point)}
         results = _run(module, library, bench, folder)
     if WAVES:
         print(f"waveform: {folder / 'dump.vcd'}")

@@ -6,11 +6,15 @@ corners and random ones at full width. :meth:`Case.check` runs it through the RT
     mismatches        RTL against golden model, in every bit, and in every latency
     max_error_ulp     golden model against the exact value of the unit's formula, in units of its last bit
     max_error_ideal   against the function that the formula approximates, as a number (1.0: full intensity)
+
+Two engines run a case: this one, NumPy, with a vector on every clock, and cocotb (``tb.case_bench``), with gaps and
+resets.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import itertools
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -52,10 +56,13 @@ class Result:
 class Case:
     """A module at a parameter point and what it must compute.
 
-    ``golden``, ``exact``, ``ideal``: inputs -> outputs by port name; ``vectors(rng, rows)`` makes random inputs,
-    ``all_vectors`` yields every input. ``latency``: declared; of every single vector. ``unit_f``: fraction bits of
-    the outputs, ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in
-    it. ``note``: what sets apart cases of the same point.
+    ``golden``, ``exact``, ``ideal``: inputs -> outputs by port name, of structures by field (``n_i.x``);
+    ``vectors(rng, rows)`` makes random inputs, ``all_vectors`` yields every input. ``latency``: declared; of every
+    single vector. ``bound``: of the error against ``exact`` in ulp, in the paper's form at least 1/2; rounding to
+    nearest: 1/2. ``late``: inputs that are taken so many clocks after the others. ``ordered``: an output depends on the
+    vectors before. ``unit_f``: fraction bits of the outputs, ``more_f``: of those ports that have others. ``chunk``:
+    vectors a run, for inputs that are constant in it: settings, which change while nothing is in flight. ``note``: what
+    sets apart cases of the same point.
     """
 
     module: str
@@ -68,6 +75,9 @@ class Case:
     all_vectors: Callable[[], Iterator[Arrays]] | None
     latency: int
     clocks_per_vector: int = 1
+    bound: float = 1 / 2
+    late: Mapping[str, int] = field(default_factory=dict)
+    ordered: bool = False
     unit_f: int = k.INTENSITY_F
     more_f: dict[str, int] = field(default_factory=dict)
     chunk: int = CHUNK
@@ -77,6 +87,11 @@ class Case:
         point = ",".join(f"{name}={value}" for name, value in self.parameters.items())
         kind = f"/{self.note}" * bool(self.note) + "/all" * (not self.vectors)
         return f"{self.module}/{self.form}{f'[{point}]' if point else ''}{kind}"
+
+    @property
+    def limit(self) -> float:
+        """What the error may be, in ulp."""
+        return self.bound if self.form == "refined" else max(self.bound, 1 / 2)
 
     def stream(self, vectors: int, seed: int) -> Iterator[Arrays]:
         """The vectors of a run, chunk by chunk: all there are, or ``vectors`` of a seed."""
@@ -90,12 +105,12 @@ class Case:
         """Run the vectors through RTL, golden model and exact formula. ``tick`` is told the rows that are done."""
         model = sim.load(self.module, public=(), **self.parameters)  # compiled once for both engines
         fixed_latency = self.latency if model.interface.clock and not model.interface.out.valid else 0
+        pace = self.clocks_per_vector if model.interface.phase else 1
         total = Result(latency=self.latency)
         for inputs in self.stream(vectors, seed):
             rows = len(next(iter(inputs.values())))
-            pace = self.clocks_per_vector if model.interface.phase else 1
-            run = model.run(latency=fixed_latency, pace=pace, seed=seed, **inputs)
-            result = Result(vectors=rows, latency=self.latency, throughput=rows / (run.clocks - self.latency))
+            run = model.run(latency=fixed_latency, pace=pace, seed=seed, **self._delayed(inputs))
+            result = Result(vectors=rows, latency=self.latency, throughput=len(run.given) / (run.clocks - self.latency))
             golden = self.golden(inputs)
             self._compare(model, inputs, golden, run, result)
             self._measure(inputs, golden, result)
@@ -103,19 +118,46 @@ class Case:
             tick(rows)
         return total
 
+    def sample(self, rows: int, seed: int) -> Iterator[Arrays]:
+        """About so many vectors for a slow engine, run by run; settings are others in each of eight runs.
+
+        Of all vectors there are: some of the first, some of the last, random ones.
+        """
+        rng = np.random.default_rng(seed)
+        if not self.all_vectors:
+            runs = 1 if self.chunk == CHUNK else 8
+            for _ in range(runs):
+                yield self.vectors(rng, rows // runs)
+            return
+        for inputs in itertools.islice(self.all_vectors(), 8):
+            total = len(next(iter(inputs.values())))
+            index = np.r_[: min(8, total), rng.integers(0, total, rows // 4), max(total - 8, 0) : total]
+            yield {name: value[index] for name, value in inputs.items()}
+
+    def _delayed(self, inputs: Arrays) -> Arrays:
+        """Inputs as they are driven: those that are late behind the others; some vectors more, that nobody looks at."""
+        if not self.late:
+            return inputs
+        most = max(self.late.values())
+        shifts = {name: self.late.get(name, 0) for name in inputs}
+        return {
+            name: np.r_[np.repeat(value[:1], shifts[name]), value, np.repeat(value[-1:], most - shifts[name])]
+            for name, value in inputs.items()
+        }
+
     def _compare(self, model: sim.Model, inputs: Arrays, expected: Arrays, run: sim.Run, result: Result) -> None:
         wrong = np.zeros(result.vectors, bool)
+        rows, most = result.vectors, max(self.late.values(), default=0)
+        if len(run.given) != rows + most:
+            result.mismatches = abs(len(run.given) - rows - most)
+            result.first_mismatch = f"{self}: {len(run.given) - most} outputs, expected {rows}"
+            return
         for name, value in expected.items():
-            actual = run.outputs[name]
-            if len(actual) != len(value):
-                result.mismatches = abs(len(actual) - len(value))
-                result.first_mismatch = f"{self}: {len(actual)} outputs of {name}, expected {len(value)}"
-                return
-            wrong |= actual != value
-        late = run.given - run.taken != self.latency
-        result.mismatches = int(np.count_nonzero(wrong | late))
+            wrong |= run.outputs[name][:rows] != value
+        tardy = (run.given - run.taken != self.latency)[:rows]
+        result.mismatches = int(np.count_nonzero(wrong | tardy))
         if result.mismatches:
-            at = int(np.argmax(wrong | late))
+            at = int(np.argmax(wrong | tardy))
             values = ", ".join(
                 f"{name} expected {hexadecimal(value[at])} actual {hexadecimal(run.outputs[name][at])}"
                 for name, value in expected.items()
@@ -187,11 +229,6 @@ def every(ranges: dict[str, tuple[int, int]]) -> Callable[[], Iterator[Arrays]]:
             yield {name: part + low for (name, (low, _)), part in zip(ranges.items(), index, strict=True)}
 
     return make
-
-
-def late(values: np.ndarray, clocks: int) -> np.ndarray:
-    """What a port that is taken so many clocks after the others gives to each row; the last value stays."""
-    return np.r_[values[clocks:], np.repeat(values[-1:], clocks)][: len(values)]
 
 
 def shortened(make: Callable[[np.random.Generator, int], Arrays], bits: int) -> Callable:

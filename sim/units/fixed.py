@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from polyshade.golden import contract as k
@@ -15,63 +15,81 @@ def _steps(form: str) -> Iterator[Case]:
     """The building blocks: round, saturate, multiply."""
     if form != "refined":
         return
-    for width, drop in ((20, 7), (26, 9), (2, 1)):
+    for width, drop, more in ((20, 7, {}), (26, 9, {}), (2, 1, {}), (9, 8, {}), (40, 16, {}), (20, 3, {"OUT_W": 17})):
         ranges = {"x_i": signed_range(width)}
+        if more:  # a caller that asks for fewer bits promises that the result fits
+            ranges = {"x_i": (-(1 << width - 1), (1 << width - 1) - (1 << drop - 1) - 1)}
+        point = {"WIDTH": width, "DROP": drop} | more
         yield Case(
-            "shade_round", form, {"WIDTH": width, "DROP": drop}, lambda i, d=drop: {"y_o": fixed.round(i["x_i"], d)},
+            "shade_round", form, point, lambda i, d=drop: {"y_o": fixed.round(i["x_i"], d)},
             lambda i, d=drop: {"y_o": np.ldexp(i["x_i"].astype(Real), -d)},
             lambda i, d=drop: {"y_o": np.ldexp(i["x_i"].astype(Real), -d)},
-            mixed(ranges) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
+            _ties(ranges, drop) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
         )  # fmt: skip
-    for width, out_w in ((20, 12), (k.VALUE_W, k.PIXEL_W)):
+    for width, out_w in ((20, 12), (k.VALUE_W, k.PIXEL_W), (9, 4), (3, 1)):
         ranges = {"x_i": signed_range(width)}
         clamp = lambda i, o=out_w: {"y_o": fixed.saturate(i["x_i"], o)}  # noqa: E731
         yield Case(
             "shade_saturate", form, {"WIDTH": width, "OUT_W": out_w}, clamp, clamp, clamp,
-            mixed(ranges, 1 << out_w) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
+            mixed(ranges, 1 << out_w) if width > 20 else None, every(ranges) if width <= 20 else None, 0, bound=0,
         )  # fmt: skip
-    for width, out_w in ((20, 12), (k.DOT_W, k.INTENSITY_W)):
+    for width, out_w in ((20, 12), (k.DOT_W, k.INTENSITY_W), (9, 4), (3, 2)):
         limit = lambda i, o=out_w: {"y_o": fixed.limit(i["x_i"], o)}  # noqa: E731
         yield Case(
             "shade_limit", form, {"WIDTH": width, "OUT_W": out_w}, limit, limit, limit, None,
-            every({"x_i": signed_range(width)}), 0,
+            every({"x_i": signed_range(width)}), 0, bound=0,
         )  # fmt: skip
-    clamp = lambda i: dict(zip(("y_o", "clamped_o"), fixed.clamp(i["x_i"]), strict=True))  # noqa: E731
-    yield Case("shade_clamp", form, {}, clamp, clamp, clamp, None, every({"x_i": signed_range(k.INTENSITY_W)}), 0)
-    for width in (k.INTENSITY_W, 9):
+    for width, f in ((k.INTENSITY_W, k.INTENSITY_F), (20, 18), (6, 2)):
+        clamp = lambda i, f=f: dict(zip(("y_o", "clamped_o"), fixed.clamp(i["x_i"], f), strict=True))  # noqa: E731
+        yield Case(
+            "shade_clamp", form, {"WIDTH": width, "F": f}, clamp, clamp, clamp, None,
+            every({"x_i": signed_range(width)}), 0, bound=0,
+        )  # fmt: skip
+    for width in (k.INTENSITY_W, 9, 11, 2):
         square = lambda i: {"y_o": fixed.square(i["x_i"])}  # noqa: E731
         yield Case(
             "shade_square", form, {"WIDTH": width}, square, square, square, None, every({"x_i": signed_range(width)}),
-            k.LATENCY_MUL, unit_f=0,
+            k.LATENCY_MUL, bound=0, unit_f=0,
         )  # fmt: skip
-    for width in (17, 6):
+    for width in (17, 6, 3, 10, 18):
         square = lambda i: {"y_o": fixed.square(i["x_i"])}  # noqa: E731
         yield Case(
             "shade_square_fabric", form, {"WIDTH": width}, square, square, square, None,
-            every({"x_i": (0, (1 << width) - 1)}), (width - 2).bit_length(), unit_f=0,
+            every({"x_i": (0, (1 << width) - 1)}), (width - 2).bit_length(), bound=0, unit_f=0,
         )  # fmt: skip
-    for a_w, b_w, stages in ((30, 18, 2), (18, 18, 2), (30, 18, 3), (35, 18, 0), (10, 10, 2), (20, 2, 2)):
+    for a_w, b_w, stages in (
+        (30, 18, 2), (18, 18, 2), (30, 18, 3), (35, 18, 0), (18, 18, 0), (10, 10, 2), (20, 2, 2), (19, 2, 2)
+    ):  # fmt: skip
         ranges = {"a_i": signed_range(a_w), "b_i": signed_range(b_w)}
         product = lambda i: {"p_o": fixed.mul(i["a_i"], i["b_i"])}  # noqa: E731
         small = a_w + b_w <= 22
+        cuts = [sign * (1 << bits) - less for bits in (17, 18) for sign in (1, -1) for less in (0, 1)]  # where a is cut
         yield Case(
             "shade_mul", form, {"A_W": a_w, "B_W": b_w, "STAGES": stages}, product, product, product,
-            None if small else mixed(ranges), every(ranges) if small else None, stages, unit_f=0,
+            None if small else mixed(ranges, *cuts), every(ranges) if small else None, stages, bound=0, unit_f=0,
         )  # fmt: skip
+
+
+def _ties(ranges: dict[str, tuple[int, int]], drop: int) -> Callable[[np.random.Generator, int], Arrays]:
+    """Of the vectors a third is half way between two results, or next to it."""
+
+    def make(rng: np.random.Generator, rows: int) -> Arrays:
+        x = mixed(ranges)(rng, rows)["x_i"]
+        tie = (x >> drop << drop) + (1 << drop - 1) + rng.integers(-1, 2, rows)
+        return {"x_i": np.where(rng.random(rows) < 1 / 3, tie, x)}
+
+    return make
 
 
 def _delay(form: str) -> Iterator[Case]:
     if form != "refined":
         return
-    for parameters, width in (
-        ({"WIDTH": 20, "DEPTH": 0}, 20),
-        ({"WIDTH": 12, "DEPTH": 3}, 12),
-        ({"WIDTH": 16, "DEPTH": 41}, 16),
-    ):
+    for width, depth in ((20, 0), (12, 3), (16, 41), (33, 5), (1, 0), (8, 8), (8, 16), (8, 17), (8, 47)):
         same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
+        word = {"d_i": (0, (1 << width) - 1)}
         yield Case(
-            "shade_delay", form, parameters, same, same, same, None, every({"d_i": (0, (1 << width) - 1)}),
-            parameters["DEPTH"], unit_f=0,
+            "shade_delay", form, {"WIDTH": width, "DEPTH": depth}, same, same, same,
+            mixed(word) if width > 20 else None, every(word) if width <= 20 else None, depth, bound=0, unit_f=0,
         )  # fmt: skip
 
 
@@ -80,12 +98,12 @@ def _third(form: str) -> Iterator[Case]:
         x = inputs["x_i"].astype(Real)
         return {"y_o": x / 3 if form == "refined" else x * 43 / 128}
 
-    for width in (20, 18, 12, 4, 26):
+    for width in (20, 18, 12, 9, 4, 26):
         ranges = {"x_i": signed_range(width)}
         yield Case(
             "shade_third", form, {"WIDTH": width, "FORM": FORMS[form]},
             lambda i: {"y_o": fixed.third(i["x_i"], FORMS[form])}, exact, lambda i: {"y_o": i["x_i"].astype(Real) / 3},
-            mixed(ranges) if width > 20 else None, every(ranges) if width <= 20 else None, k.LATENCY_THIRD,
+            mixed(ranges) if width > 20 else None, every(ranges) if width <= 20 else None, k.LATENCY_THIRD, bound=1 / 3,
         )  # fmt: skip
 
 
@@ -96,6 +114,8 @@ def _weigh(form: str) -> Iterator[Case]:
         (20, k.SQUARE_F, 26, k.SQUARE_F, (k.INVC2_0, k.INVC2_C, k.INVC2_CC, 1)),
         (6, 4, 20, 16, (k.D1_0, k.ETA2_C, k.ETA2_CC, -1)),
         (6, 4, 6, 2, (-65536, 65535, 0, -21845)),
+        (12, 6, 21, 12, (-70000, 43691, -65535, 3)),
+        (8, 4, 12, 2, (0, 0, 0, -131072)),
     ):
         k0, *by_input = weights
 
@@ -133,11 +153,11 @@ def _root(form: str) -> Iterator[Case]:
 
     row = lambda i: {"row_o": fixed.rsqrt_rom(i["i_i"])}  # noqa: E731
     index = every({"i_i": (0, (1 << k.RSQRT_INDEX_W) - 1)})
-    yield Case("shade_rsqrt_rom", form, {}, row, row, row, None, index, 1, unit_f=0)
+    yield Case("shade_rsqrt_rom", form, {}, row, row, row, None, index, 1, bound=0, unit_f=0)
     argument = {"z_i": (0, (1 << k.RSQRT_W) - 1)}
     yield Case(
         "shade_rsqrt", form, {}, rsqrt, root, root, shortened(mixed(argument), k.RSQRT_W), None, k.LATENCY_RSQRT,
-        unit_f=k.RSQRT_F,
+        bound=7 / 8, unit_f=k.RSQRT_F,
     )  # fmt: skip
 
 

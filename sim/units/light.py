@@ -62,7 +62,10 @@ def _directions(form: str) -> Iterator[Case]:
         r = (twice.clip(-LIMITS[1] / ONE, 2) * n - l) * ONE
         return dict(zip(("x_o", "y_o", "z_o"), r.clip(*LIMITS), strict=True))
 
-    yield Case("shade_reflect", form, {}, reflected, mirror, mirror, ends("nl"), None, k.LATENCY_REFLECT)
+    yield Case(
+        "shade_reflect", form, {}, reflected, mirror, mirror, ends("nl"), None, k.LATENCY_REFLECT,
+        bound=1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
+    )  # fmt: skip
 
     def golden(i: Arrays) -> Arrays:
         return dict(zip(("hx_o", "hy_o", "hz_o", "vh_o", "zero_o"), light.halfway(*i.values()), strict=True))
@@ -75,7 +78,10 @@ def _directions(form: str) -> Iterator[Case]:
         values = (*(h * ONE), ((v * h).sum(axis=0) * ONE).clip(0, ONE))
         return golden(i) | dict(zip(("hx_o", "hy_o", "hz_o", "vh_o"), values, strict=True))
 
-    yield Case("shade_halfway", form, {}, golden, halfway, halfway, ends("lv"), None, k.LATENCY_HALFWAY)
+    yield Case(
+        "shade_halfway", form, {}, golden, halfway, halfway, ends("lv"), None, k.LATENCY_HALFWAY,
+        bound=4.25,  # 1/2, and H's 5/8 times the sum of V's components; of unit vectors at most 1.6
+    )  # fmt: skip
 
 
 Highlight = tuple[str, float, float]  # model, n, m
@@ -135,8 +141,6 @@ def _lobe(form: str) -> Iterator[Case]:
         return x
 
     def case(stages: int, fold: int, note: str, vectors: Callable, more: Callable | None = None) -> Case:
-        highlights = _highlights(form, stages)
-
         def registers(i: Arrays) -> tuple[int, ...]:
             return tuple(int(i[f"{name}_i"][0]) for name in light.LOBE)
 
@@ -149,13 +153,14 @@ def _lobe(form: str) -> Iterator[Case]:
 
         def ideal(i: Arrays) -> Arrays:
             """The highlight that the registers stand for."""
-            model, n, m = highlights[registers(i)]
+            model, n, m = _highlights(form, stages)[registers(i)]
             x = np.ldexp(np.minimum(i["x_i"], one).astype(float), -k.VERSINE_F)
             return {"lobe_o": material.shape(model, x, n, m) * ONE}
 
         return Case(
             "shade_lobe", form, {"POWER": stages, "FOLD": fold}, golden, exact, ideal if more is None else exact, more,
             vectors, lobe_latency(stages, fold), fold, chunk=1 << 12, note=note,
+            bound=1.5,  # 1/2, and 2^power times what s, y and z lack near the peak
         )  # fmt: skip
 
     def of(stages: int, step: int, make: Callable[[np.random.Generator], np.ndarray]) -> Callable:
@@ -207,7 +212,7 @@ def _fresnel(form: str) -> Iterator[Case]:
 
     ranges = dict.fromkeys(("c_i", "f0_i"), (0, ONE + 16))
     for vectors, everything in ((mixed(ranges, ONE - 1, ONE, ONE + 1), None), (None, materials)):
-        yield Case("shade_fresnel", form, {}, golden, exact, exact, vectors, everything, k.LATENCY_FRESNEL)
+        yield Case("shade_fresnel", form, {}, golden, exact, exact, vectors, everything, k.LATENCY_FRESNEL, bound=1)
 
 
 def _colour(form: str) -> Iterator[Case]:

@@ -16,7 +16,6 @@ from polyshade.sim.units.case import (
     corners,
     every,
     in_forms,
-    late,
     mixed,
     shortened,
     signed_range,
@@ -95,7 +94,7 @@ def _normalize(form: str) -> Iterator[Case]:
     vector = {f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"}
     yield Case(
         "shade_normalize", form, {}, unit, exact, exact, shortened(mixed(vector, ONE, -ONE), k.INTENSITY_W), None,
-        k.LATENCY_NORMALIZE,
+        k.LATENCY_NORMALIZE, bound=5 / 8,
     )  # fmt: skip
 
 
@@ -127,7 +126,10 @@ def _unit(form: str) -> Iterator[Case]:
         return golden(i) | dict(zip(ports, n, strict=False))
 
     for fold, latency in ((1, k.LATENCY_UNIT), (6, k.LATENCY_UNIT_FOLDED)):
-        yield Case("shade_unit", form, {"FOLD": fold}, golden, exact, exact, vectors, None, latency, fold)
+        yield Case(
+            "shade_unit", form, {"FOLD": fold}, golden, exact, exact, vectors, None, latency, fold,
+            bound=1.65,  # 1/2, 3/8 of s, and of a vector longer than 2 the rounding to 18 bits
+        )  # fmt: skip
 
 
 def _vectors(form: str) -> Iterator[Case]:
@@ -162,16 +164,16 @@ def _vectors(form: str) -> Iterator[Case]:
 
     for wait in (1, 4):
 
-        def golden(i: Arrays, wait: int = wait) -> Arrays:
-            return named(normal.bisect(*_ends(i), late(i["invc_i"], wait)))
+        def golden(i: Arrays) -> Arrays:
+            return named(normal.bisect(*_ends(i), i["invc_i"]))
 
-        def exact(i: Arrays, wait: int = wait) -> Arrays:
-            return named(_bisected(*_ends(i), late(i["invc_i"], wait).astype(Real) / (1 << k.INVC_F)))
+        def exact(i: Arrays) -> Arrays:
+            return named(_bisected(*_ends(i), i["invc_i"].astype(Real) / (1 << k.INVC_F)))
 
         yield Case(
             "shade_bisect", form, {"WAIT": wait}, golden, exact, exact,
             lambda rng, rows: ends()(rng, rows) | mixed({"invc_i": factor}, ONE)(rng, rows), None,
-            wait + k.LATENCY_SCALE3,
+            wait + k.LATENCY_SCALE3, late={"invc_i": wait},
         )  # fmt: skip
 
 
@@ -221,19 +223,21 @@ def _cosines(form: str) -> Iterator[Case]:
             "shade_invc", form, {"FORM": FORMS[form], "DEGREE": degree}, golden,
             lambda i, value=value, d=degree: value(i, lambda c: _invc(form, d, c)),
             lambda i, value=value: value(i, true_invc), None, everything, k.LATENCY_INVC, more_f={"invc_o": k.INVC_F},
+            bound=0.82,  # as half, in ulp of U0.18
         )  # fmt: skip
 
     def with_powers() -> Iterator[Arrays]:
-        """Every c; u^2 and u^4 come a clock later."""
-        c = np.append(np.arange(ONE + 1), ONE)
+        """Every c."""
+        c = np.arange(ONE + 1)
         cut, square = 2 * k.INTENSITY_F - k.SQUARE_F, (ONE - c) ** 2
-        powers = {"uu_i": square >> cut, "uuuu_i": (square >> k.INTENSITY_F) ** 2 >> cut}
-        yield {"c_i": c} | {name: np.r_[0, power[:-1]] for name, power in powers.items()}
+        yield {"c_i": c, "uu_i": square >> cut, "uuuu_i": (square >> k.INTENSITY_F) ** 2 >> cut}
 
     yield Case(
         "shade_half", form, {"FORM": FORMS[form]}, lambda i: {"half_o": normal.half(i["c_i"], FORMS[form])},
         lambda i: {"half_o": _invc(form, 2, cosine(i["c_i"]))[1] * ONE},
         lambda i: {"half_o": true_invc(cosine(i["c_i"]))[1] * ONE}, None, with_powers, k.LATENCY_HALF,
+        late={"uu_i": 1, "uuuu_i": 1},
+        bound=0.53,  # 1/2, and what the cuts of the powers are worth: of u^4, up to 8 times its last bit
     )  # fmt: skip
 
 
@@ -264,14 +268,15 @@ def _nodes(form: str) -> Iterator[Case]:
             )
 
         units = (
-            ("shade_midpoint", middle, exact_middle, k.LATENCY_MIDPOINT),
-            ("shade_node_chain", chain, exact_chain, k.LATENCY_NODE_CHAIN),
+            # 1/2, and 0.55 of half an ulp times a sum of at most 2
+            ("shade_midpoint", middle, exact_middle, k.LATENCY_MIDPOINT, 1.05),
+            ("shade_node_chain", chain, exact_chain, k.LATENCY_NODE_CHAIN, 2),
         )
-        for module, golden, exact, latency in units:
+        for module, golden, exact, latency, bound in units:
             yield Case(
                 module, form, point, golden,
                 lambda i, exact=exact, d=degree: exact(i, lambda c: _invc(form, d, c)),
-                lambda i, exact=exact: exact(i, true_invc), arcs, None, latency,
+                lambda i, exact=exact: exact(i, true_invc), arcs, None, latency, bound=bound,
             )  # fmt: skip
 
 
@@ -326,7 +331,7 @@ def _increment(form: str) -> Iterator[Case]:
         sums = (normal.increment_sum(i["first_i"], i["line_i"], *(i[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz")
         return {f"{c}_o": value.astype(Real) / ulp for c, value in zip("xyz", sums, strict=True)}
 
-    yield Case("shade_increment", form, {}, golden, exact, exact, vectors, None, k.LATENCY_INCREMENT)
+    yield Case("shade_increment", form, {}, golden, exact, exact, vectors, None, k.LATENCY_INCREMENT, ordered=True)
 
 
 def cases() -> Iterator[Case]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import plan
-from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, late, mixed, signed_range, thresholds
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, mixed, signed_range, thresholds
 from polyshade.sim.units.normal import DEGREES, cosine, true_invc
 
 
@@ -39,6 +39,17 @@ def _criterion(form: str) -> Iterator[Case]:
         chosen = rng.random(rows) < 0.75
         return free | {name: np.where(chosen, value, free[name]) for name, value in dense.items()}
 
+    def beside(degree: int) -> Callable[[np.random.Generator, int], Arrays]:
+        """Half of the thresholds are eta, or next to it."""
+
+        def make(rng: np.random.Generator, rows: int) -> Arrays:
+            i = random(rng, rows)
+            eta = plan.criterion(i["ab_i"], i["bc_i"], i["ca_i"], 0, FORMS[form], degree)[0]
+            near = (eta + rng.integers(-1, 2, rows)).clip(*signed_range(k.ETA_W))
+            return i | {"threshold_i": np.where(rng.random(rows) < 0.5, near, i["threshold_i"])}
+
+        return make
+
     for degree in DEGREES[form]:
 
         def eta(i: Arrays, degree: int = degree) -> Arrays:
@@ -53,10 +64,10 @@ def _criterion(form: str) -> Iterator[Case]:
             true = sum(1 - true_invc(cosine(i[f"{edge}_i"]))[1] for edge in ("ab", "bc", "ca"))
             return eta(i) | {"eta_o": true * (1 << k.ETA_F)}
 
-        for vectors, all_of in ((None, every_cosine), (random, None)):
+        for vectors, all_of in ((None, every_cosine), (beside(degree), None)):
             yield Case(
                 "shade_criterion", form, {"FORM": FORMS[form], "DEGREE": degree}, eta, exact, ideal, vectors, all_of,
-                k.LATENCY_CRITERION, unit_f=k.ETA_F,
+                k.LATENCY_CRITERION, bound=0.85, unit_f=k.ETA_F,
             )  # fmt: skip
 
 
@@ -85,11 +96,11 @@ def _kappa(form: str) -> Iterator[Case]:
 
     def golden(i: Arrays) -> Arrays:
         g = (i[name] for name in names)
-        return {"kappa_o": plan.kappa(*g, late(i["log2_i"], 2), i["mantissa_i"], i["exponent_i"])}
+        return {"kappa_o": plan.kappa(*g, i["log2_i"], i["mantissa_i"], i["exponent_i"])}
 
     def value(i: Arrays, energy: np.ndarray) -> Arrays:
         """kappa for |g|^2, g in units of its last bit."""
-        shift = 2 * late(i["log2_i"], 2) + i["exponent_i"] - 2 * k.STEP_F - k.SHARPNESS_F - 1 + k.KAPPA_F
+        shift = 2 * i["log2_i"] + i["exponent_i"] - 2 * k.STEP_F - k.SHARPNESS_F - 1 + k.KAPPA_F
         return {"kappa_o": np.minimum(np.ldexp(energy * i["mantissa_i"], shift), plan.KAPPA_MAX)}
 
     def exact(i: Arrays) -> Arrays:
@@ -104,8 +115,10 @@ def _kappa(form: str) -> Iterator[Case]:
         return value(i, sum(i[name].astype(Real) ** 2 for name in names))
 
     yield Case(
-        "shade_kappa", form, {}, golden, exact, ideal, vectors, None, k.LATENCY_KAPPA, unit_f=k.KAPPA_F, chunk=1 << 16
-    )
+        "shade_kappa", form, {}, golden, exact, ideal, vectors, None, k.LATENCY_KAPPA, unit_f=k.KAPPA_F, chunk=1 << 13,
+        late={"log2_i": 2},
+        bound=1,  # cut, behind the cuts of its factors; those make 2^-12 of it at most, see tb/golden/test_plan.py
+    )  # fmt: skip
 
 
 def _planner(form: str) -> Iterator[Case]:
@@ -138,8 +151,8 @@ def _planner(form: str) -> Iterator[Case]:
 
     for fold, latency in ((1, k.LATENCY_PLANNER), (6, k.LATENCY_PLANNER_FOLDED)):
         yield Case(
-            "shade_planner", form, {"FOLD": fold}, golden, golden, golden, vectors, None, latency, fold, unit_f=0,
-            chunk=1 << 16,
+            "shade_planner", form, {"FOLD": fold}, golden, golden, golden, vectors, None, latency, fold, bound=0,
+            unit_f=0, chunk=1 << 13,
         )  # fmt: skip
 
 

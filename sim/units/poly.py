@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import poly
-from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, late, mixed, signed_range
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, mixed, signed_range
 
 # numerators over 3 of the cubic's coefficients, in I1 .. I4 (P1, section IV, both parts brought together)
 CUBIC = {
@@ -81,7 +81,7 @@ def _coef(form: str) -> Iterator[Case]:
             ideal = lambda i, v=ideals: {f"{n}_o": f(i) for n, f in v.items()}  # noqa: E731
             yield Case(
                 module, form, point | more, golden, exact, exact if form == "refined" else ideal, random, all_of,
-                k.LATENCY_COEF,
+                k.LATENCY_COEF, bound=0 if names == "b" else 1 / 3,
             )  # fmt: skip
     if form == "refined":
         for width in (k.INTENSITY_W, 12):
@@ -90,34 +90,34 @@ def _coef(form: str) -> Iterator[Case]:
                 "shade_coef_d", form, {"WIDTH": width}, lambda i: {"d_o": poly.coef_d(i["i1_i"])},
                 lambda i: {"d_o": i["i1_i"].astype(Real)}, lambda i: {"d_o": i["i1_i"].astype(Real)},
                 mixed(same) if width == k.INTENSITY_W else None, None if width == k.INTENSITY_W else every(same),
-                k.LATENCY_COEF,
+                k.LATENCY_COEF, bound=0,
             )  # fmt: skip
 
 
 def _horner_step(form: str) -> Iterator[Case]:
     if form != "refined":
         return
-    width, t_f = k.VALUE_W + k.HORNER_GUARD, k.T_F
-    half = signed_range(width - 1)  # s and c, so that the sum fits
+    for width, t_f in ((k.VALUE_W + k.HORNER_GUARD, k.T_F), (12, 4)):
+        half = signed_range(width - 1)  # s and c, so that the sum fits
 
-    def exact(i: Arrays) -> Arrays:
-        return {"y_o": i["s_i"] * (i["t_i"].astype(Real) / (1 << t_f)) + late(i["c_i"], k.LATENCY_MUL)}
+        def exact(i: Arrays, t_f: int = t_f) -> Arrays:
+            return {"y_o": i["s_i"] * (i["t_i"].astype(Real) / (1 << t_f)) + i["c_i"]}
 
-    yield Case(
-        "shade_horner_step", form, {},
-        lambda i: {"y_o": poly.horner_step(i["s_i"], i["t_i"], late(i["c_i"], k.LATENCY_MUL))}, exact, exact,
-        mixed({"s_i": half, "t_i": (0, 1 << t_f), "c_i": half}), None, k.LATENCY_HORNER_STEP,
-        unit_f=k.INTENSITY_F + k.HORNER_GUARD,
-    )  # fmt: skip
+        yield Case(
+            "shade_horner_step", form, {"WIDTH": width, "T_F": t_f},
+            lambda i, t_f=t_f: {"y_o": poly.horner_step(i["s_i"], i["t_i"], i["c_i"], t_f=t_f)}, exact, exact,
+            mixed({"s_i": half, "t_i": (0, 1 << t_f), "c_i": half}), None, k.LATENCY_HORNER_STEP,
+            late={"c_i": k.LATENCY_MUL}, unit_f=k.INTENSITY_F + k.HORNER_GUARD,
+        )  # fmt: skip
 
 
 def _horner(form: str) -> Iterator[Case]:
     if form != "refined":
         return
-    points = [(k.COEF_W, k.INTENSITY_W, k.T_F), (4, 4, 4)]
+    points = [(k.COEF_W, k.INTENSITY_W, k.T_F), (4, 4, 4), (10, 6, 4)]
     for coef_w, d_w, t_f in points:
         ranges = {f"{n}_i": signed_range(coef_w) for n in "abc"} | {"d_i": signed_range(d_w), "t_i": (0, 1 << t_f)}
-        full = coef_w == k.COEF_W
+        full = coef_w > 4
 
         def exact(i: Arrays, t_f: int = t_f) -> Arrays:
             t = i["t_i"].astype(Real) / (1 << t_f)
@@ -131,6 +131,7 @@ def _horner(form: str) -> Iterator[Case]:
                 module, form, {"COEF_W": coef_w, "D_W": d_w, "T_F": t_f},
                 lambda i, t_f=t_f: {"y_o": poly.horner(*(i[f"{n}_i"] for n in "abcdt"), t_f=t_f)}, exact, exact,
                 mixed(ranges, 1 << t_f >> 1) if full else None, None if full else every(ranges), latency, clocks,
+                bound=1 / 2 + 3 / 16,
             )  # fmt: skip
 
 
@@ -160,10 +161,11 @@ def _fdiff(form: str) -> Iterator[Case]:
         for part in every(ranges)():
             yield spread(part, (1 << part["log2_i"]) + 1)
 
-    yield Case("shade_fdiff", form, {}, golden, exact, exact, random, None, k.LATENCY_FDIFF)
+    yield Case("shade_fdiff", form, {}, golden, exact, exact, random, None, k.LATENCY_FDIFF, ordered=True)
     yield Case(
-        "shade_fdiff", form, {"COEF_W": 4, "D_W": 4, "LOG2_MAX": 3}, golden, exact, exact, None, all_of, k.LATENCY_FDIFF
-    )
+        "shade_fdiff", form, {"COEF_W": 4, "D_W": 4, "LOG2_MAX": 3}, golden, exact, exact, None, all_of,
+        k.LATENCY_FDIFF, ordered=True,
+    )  # fmt: skip
 
 
 def spread(segments: Arrays, count: np.ndarray) -> Arrays:

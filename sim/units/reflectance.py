@@ -1,6 +1,6 @@
 """Light at a node in six models: its angles, quotients and gain, and the whole.
 
-Settings hold for a run: each has a material of its own, so that ten million vectors see forty of each model.
+Settings hold for a run: each has a material of its own, so that half a million vectors see twenty of each model.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, in_forms, mixed, 
 from polyshade.sim.units.normal import unit_vectors
 
 Real = np.float64  # no value here needs more than 53 bits to be right within 2^-30 ulp
-CHUNK = 250_000
-FEW = 62_500  # rows of a run where one case has all models
+CHUNK = 25_000
+FEW = 6_250  # rows of a run where one case has all models
 CODES = range(1 << k.MODEL_W)  # reserved ones too
 NAMES = {code: name for name, code in material.MODELS.items()}
 LIMITS = signed_range(k.INTENSITY_W)
@@ -167,7 +167,11 @@ def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: in
     num = -(-target // (lobe * mantissa)) + rng.integers(-1, 1, rows, endpoint=True)
     e = np.where(rng.random(rows) < 1 / 8, rng.integers(low, high, rows, endpoint=True), above - exponent)
     values = {"lobe": lobe, "num": num.clip(0, ONE), "fresnel": ONE, "w": 0, "e": e.clip(low, high)}
-    return {f"{name}_i": np.broadcast_to(value, rows) for name, value in values.items()}
+    found = {f"{name}_i": np.broadcast_to(value, rows).copy() for name, value in values.items()}
+    for row, numbers in enumerate([(10572, 17019, ONE, 0, 5), (ONE, ONE, ONE, 0, 0), (ONE, ONE, ONE, 0, 1)]):
+        for values, number in zip(found.values(), numbers, strict=True):
+            values[row] = number
+    return found
 
 
 # ---- the units ---------------------------------------------------------------------------------------------------
@@ -176,11 +180,11 @@ def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: in
 def _angles(form: str) -> Iterator[Case]:
     names = ("diffuse_o", "nl_o", "nv_o", "x_o", "saturated_o", "nl_range_o", "nv_range_o", "x_range_o", "lost_o")
 
-    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
-        l, v = unit_vectors(rng, 2).T  # noqa: E741
+    def vectors(rng: np.random.Generator, rows: int, local: int, reflect: int) -> Arrays:
+        l, v = unit_vectors(rng, 2 * rows).reshape(3, 2, rows).swapaxes(0, 1) if local else unit_vectors(rng, 2).T  # noqa: E741
         h = light.halfway(*l, *v)[:3]
         packed = {name: pack(u) for name, u in zip("nlvh", (normals(rng, rows, l, v, h), l, v, h), strict=True)}
-        return ports(rows, mirror=int(rng.integers(0, 2)), **packed)
+        return ports(rows, mirror=int(rng.integers(0, 2)) & reflect, **packed)
 
     def golden(i: Arrays) -> Arrays:
         values = light.angles(i["mirror_i"], *(vector(i, name) for name in "nlvh"), FORMS[form])
@@ -196,10 +200,14 @@ def _angles(form: str) -> Iterator[Case]:
         x = np.ldexp(x, k.VERSINE_F - 2 * k.INTENSITY_F).clip(0, 2 << k.VERSINE_F)
         return golden(i) | dict(zip(names, (*cosines, x), strict=False))
 
-    yield Case(
-        "shade_angles", form, {"FORM": FORMS[form]}, golden, exact, exact, vectors, None, k.LATENCY_ANGLES,
-        more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
-    )  # fmt: skip
+    for reflect, local in ((1, 0), (0, 0), (1, 1), (0, 1)):
+        latency = k.LATENCY_ANGLES - (not reflect) * k.LATENCY_REFLECT
+        yield Case(
+            "shade_angles", form, {"FORM": FORMS[form], "REFLECT": reflect, "LOCAL": local}, golden, exact, exact,
+            lambda rng, rows, local=local, reflect=reflect: vectors(rng, rows, local, reflect), None,
+            k.LATENCY_HALFWAY + 1 + k.LATENCY_VERSINE if local else latency,
+            late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
+        )  # fmt: skip
 
 
 def _factors(form: str) -> Iterator[Case]:
@@ -238,6 +246,7 @@ def _factors(form: str) -> Iterator[Case]:
     yield Case(
         "shade_geometry", form, {}, geometry, divided, divided, cosines, None, k.LATENCY_GEOMETRY,
         more_f={"w_o": k.FACTOR_F}, chunk=FEW,
+        bound=2.6,  # of 1 + w: the root's 0.85/4 and d's 1/2, times 2.83 by squaring and doubling, and 1/2
     )  # fmt: skip
 
     def factors(rng: np.random.Generator, rows: int) -> Arrays:
@@ -250,8 +259,10 @@ def _factors(form: str) -> Iterator[Case]:
         return ports(rows, gain=gain, gain_exp=exponent) | sized(rng, rows, "lobe", "num", "fresnel") | w | {"e_i": e}
 
     def brim(rng: np.random.Generator, rows: int) -> Arrays:
-        """Light that rounds up to 2, or just does not."""
-        exponent, mantissa = int(rng.integers(*signed_range(k.GAIN_EXP_W))), int(rng.integers(ONE, 2 * ONE))
+        """Light that rounds up to 2, or just does not; the ends of every exponent."""
+        low, high = signed_range(k.GAIN_EXP_W)
+        exponent = int(rng.choice([low, high, 0, rng.integers(low, high)]))
+        mantissa = int(rng.choice([97775, ONE, 2 * ONE - 1, rng.integers(ONE, 2 * ONE)]))
         return ports(rows, gain=mantissa, gain_exp=exponent) | to_the_brim(rng, rows, mantissa, exponent)
 
     def gain(i: Arrays) -> Arrays:
@@ -265,7 +276,10 @@ def _factors(form: str) -> Iterator[Case]:
         return gain(i) | {"s_o": value}
 
     for vectors, note in ((factors, ""), (brim, "brim")):
-        yield Case("shade_gain", form, {}, gain, product, product, vectors, None, k.LATENCY_GAIN, chunk=FEW, note=note)
+        yield Case(
+            "shade_gain", form, {}, gain, product, product, vectors, None, k.LATENCY_GAIN, chunk=FEW, note=note,
+            bound=2.5,  # 1/2, and the rounding of a factor of at least 1/2, in light of at most 2
+        )  # fmt: skip
 
 
 def _nodes(form: str) -> Iterator[Case]:
@@ -273,19 +287,23 @@ def _nodes(form: str) -> Iterator[Case]:
     outputs = ("diffuse_o", "specular_o", "flags_o")
 
     def case(
-        module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "", clocks: int = 1
-    ) -> Case:
-        """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs."""
+        module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "", clocks: int = 1,
+        late: dict[str, int] | None = None, **point: int,
+    ) -> Case:  # fmt: skip
+        """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs. What is left out at the
+        ``point`` has no formula: there RTL and golden model are compared, and no more."""
+        built = [point.get(name, 1) for name in ("REFLECT", "DIVIDE")]
 
         def golden(i: Arrays) -> Arrays:
-            return dict(zip(outputs, light.reflectance(*inner(i), words(i), FORMS[form]), strict=True))
+            return dict(zip(outputs, light.reflectance(*inner(i), words(i), FORMS[form], *built), strict=True))
 
         def formula(of: Callable) -> Callable[[Arrays], Arrays]:
-            return lambda i: of(int(i["model_i"][0]), words(i), *inner(i), form)
+            return golden if 0 in built else lambda i: of(int(i["model_i"][0]), words(i), *inner(i), form)
 
         return Case(
-            module, form, {"FORM": FORMS[form]}, golden, formula(exact_light), formula(ideal_light), vectors, None,
-            latency, clocks, chunk=chunk, note=note,
+            module, form, {"FORM": FORMS[form]} | point, golden, formula(exact_light), formula(ideal_light), vectors,
+            None, latency, clocks, chunk=chunk, note=note, late=late or {},
+            bound=4.5,  # of geometry and gain together, 2^-15 of light of at most 2, and 1/2
         )  # fmt: skip
 
     for code, name in NAMES.items():
@@ -303,6 +321,9 @@ def _nodes(form: str) -> Iterator[Case]:
             return vector(i, "n"), l, np.reshape([0, 0, ONE], (3, 1)), h, int(i["vh_i"][0]), ONE
 
         yield case("shade_light", directional, settled, k.LATENCY_LIGHT, CHUNK, name)
+        if form == "refined":
+            shorter = k.LATENCY_LIGHT - k.LATENCY_REFLECT
+            yield case("shade_light", directional, settled, shorter, CHUNK, name, REFLECT=0, DIVIDE=0)
         if code in (k.MODEL_LAMBERT, k.MODEL_BLINN):
 
             def plain(rng: np.random.Generator, rows: int, code: int = code) -> Arrays:
@@ -329,19 +350,27 @@ def _nodes(form: str) -> Iterator[Case]:
         return n, l, v, np.stack(h), vh, light.fresnel(vh, i["f0_i"][0])
 
     yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW)
+    yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW, REFLECT=0, DIVIDE=0)
 
-    def packed(rng: np.random.Generator, rows: int) -> Arrays:
-        l, v = unit_vectors(rng, 2).T  # noqa: E741
+    def packed(rng: np.random.Generator, rows: int, several: bool) -> Arrays:
+        size = rows if several else 1
+        l, v = unit_vectors(rng, 2 * size).reshape(3, 2, size).swapaxes(0, 1)  # noqa: E741
         *h, vh, _ = light.halfway(*l, *v)
         settings = registers(rng, int(rng.integers(0, len(CODES))), form)
         settings.pop("f0")
         vectors = {name: pack(u) for name, u in zip("nlvh", (normals(rng, rows, l, v, h), l, v, h), strict=True)}
-        return ports(rows, **vectors, vh=vh, fresnel=int(rng.integers(*COSINE, endpoint=True)), **settings)
+        return ports(rows, **vectors, vh=vh, fresnel=rng.integers(*COSINE, size, endpoint=True), **settings)
 
     def given(i: Arrays) -> tuple:
-        return *(vector(i, name) for name in "nlvh"), int(i["vh_i"][0]), int(i["fresnel_i"][0])
+        return *(vector(i, name) for name in "nlvh"), i["vh_i"], i["fresnel_i"]
 
-    yield case("shade_reflectance", packed, given, k.LATENCY_LIGHT, FEW)
+    late = {"h_i": k.LATENCY_HALFWAY, "vh_i": k.LATENCY_HALFWAY, "fresnel_i": k.LATENCY_HALFWAY + k.LATENCY_FRESNEL}
+    for local, divide in ((0, 1), (0, 0), (1, 1), (1, 0)):
+        latency = k.LATENCY_LIGHT_LOCAL if local else k.LATENCY_LIGHT - (not divide) * k.LATENCY_REFLECT
+        yield case(
+            "shade_reflectance", lambda rng, rows, several=bool(local): packed(rng, rows, several), given, latency,
+            FEW, late=late if local else {}, REFLECT=divide, DIVIDE=divide, LOCAL=local,
+        )  # fmt: skip
 
 
 def cases() -> Iterator[Case]:

@@ -157,7 +157,17 @@ def _fifo(form: str) -> Iterator[Case]:
         return
     same = lambda i: {"data_o": i["data_i"]}  # noqa: E731
     yield Case(
-        "shade_fifo", form, {}, same, same, same, mixed({"data_i": (0, (1 << 32) - 1)}), None, k.LATENCY_FIFO, unit_f=0
+        "shade_fifo",
+        form,
+        {},
+        same,
+        same,
+        same,
+        mixed({"data_i": (0, (1 << 32) - 1)}),
+        None,
+        k.LATENCY_FIFO,
+        bound=0,
+        unit_f=0,
     )
 
 

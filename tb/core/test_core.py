@@ -22,8 +22,7 @@ from polyshade.golden.core import core as golden_core
 from polyshade.golden.registers import ID, after_reset, pack, registers, unpack
 
 from tb.bench import PRESSURE, Bench, Mismatch, checked, no_path
-from tb.core.vectors import Spans, settings, spans
-from tb.light.vectors import CODES
+from tb.core.vectors import CODES, Spans, settings, spans
 from tb.runner import points, simulate
 
 OFFSETS = {register.name: register.offset for register in registers()}

@@ -7,8 +7,7 @@ from polyshade.golden.core import phong
 from polyshade.golden.normal import line_errors
 
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
-from tb.core.vectors import Spans, set_draw, settings, spans
-from tb.light.vectors import CODES
+from tb.core.vectors import CODES, Spans, set_draw, settings, spans
 from tb.runner import points, simulate
 
 SPAN, PIXEL = "s_axis_span_", "m_axis_pixel_"

@@ -7,12 +7,15 @@ from numpy.typing import ArrayLike
 from polyshade.golden import contract as k
 from polyshade.golden import types
 from polyshade.golden.fixed import ONE
-from polyshade.golden.material import Material, colour_registers, planner_registers
+from polyshade.golden.material import MODELS, Material, colour_registers, planner_registers
+from polyshade.golden.material import registers as material_registers
 from polyshade.golden.normal import pack_lines
 from polyshade.golden.registers import draw as named
 
 from tb.bench import Bench
-from tb.light.vectors import NAMES, registers
+
+CODES = range(1 << k.MODEL_W)  # reserved ones too
+NAMES = {code: name for name, code in MODELS.items()}
 
 
 @dataclass
@@ -53,6 +56,13 @@ def spans(bench: Bench, count: ArrayLike) -> Spans:
     )
     tag, cosine, flat = rng.integers(0, 1 << k.TAG_W, rows), bench.signed(k.INTENSITY_W, rows), rng.integers(0, 2, rows)
     return Spans(normal, step, count, tag, cosine, flat)
+
+
+def registers(bench: Bench, code: int, light: ArrayLike) -> dict[str, int]:
+    """Register values of a random material of a model, or of a reserved code."""
+    shininess, roughness = 2.0 ** bench.rng.uniform(0, 10), bench.rng.uniform(0.05, 0.7)
+    words = material_registers(Material(NAMES.get(code, "blinn"), shininess, roughness), light)
+    return words | {"model": code, "cosine": int(bench.rng.integers(0, 2))}
 
 
 def settings(bench: Bench, code: int) -> dict[str, int]:

@@ -24,18 +24,6 @@ def polynomials(bench: Bench, rows: int) -> dict[str, np.ndarray]:
     return {**coefficients, "d_i": bench.signed(bench.parameter("D_W"), rows)}
 
 
-def nodes(bench: Bench, rows: int) -> dict[str, np.ndarray]:
-    """Degree and four intensities: half of them corners and random ones, half those of a nearly constant span.
-
-    In the second half large terms cancel and A, B and C are small.
-    """
-    bits = bench.parameter("WIDTH")
-    free = bench.signed(bits, rows * k.NODE_COUNT).reshape(rows, -1)
-    flat = np.clip(free[:, :1] + bench.rng.integers(-2, 3, free.shape), -(1 << bits - 1), (1 << bits - 1) - 1)
-    chosen = np.where(np.arange(rows)[:, None] % 2, free, flat)
-    return {"degree_i": bench.rng.integers(0, 4, rows), **{f"i{i + 1}_i": chosen[:, i] for i in range(k.NODE_COUNT)}}
-
-
 @dataclass(frozen=True)
 class Spans:
     """Spans for shade_span_walk and shade_poly_span: nodes (S, 2, 4), degree, count, tag, more (S,)."""

@@ -133,10 +133,12 @@ def test_a_module_without_twin_is_told(toy: Path, monkeypatch) -> None:
     ]
 
 
-def test_a_module_without_bench_is_told(toy: Path) -> None:
-    """The place where the bench should be is named."""
+def test_a_module_without_bench_is_told(toy: Path, monkeypatch) -> None:
+    """The place where the bench should be is named; a case will do as well."""
     (toy.parents[2] / "tb" / "fixed" / "test_toy.py").unlink()
-    assert lint.mirror("shade_toy", toy) == ["tb/fixed/test_toy.py: missing, the bench of shade_toy"]
+    assert lint.mirror("shade_toy", toy) == ["shade_toy: no case in sim/units, and no bench tb/fixed/test_toy.py"]
+    monkeypatch.setattr(lint, "tested", lambda: {"shade_toy"})
+    assert lint.mirror("shade_toy", toy) == []
 
 
 def test_file_list_rules(toy: Path, monkeypatch) -> None:

@@ -8,7 +8,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-one lint format generate bench units papers synth formal pictures tables lock clean distclean
+.PHONY: all help setup test test-all test-one lint format generate bench units papers synth formal pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -30,6 +30,9 @@ $(EQUAL): $(READY) $(shell find rtl golden sim scripts -name '*.sv' -o -name '*.
 test: $(READY) ## Run lint, golden, cocotb, NumPy-driven and command-line tests
 	@$(BIN)/python -m polyshade.scripts.flow.tools cocotb
 	$(PYTEST) -n auto --dist worksteal --junitxml build/test/report.xml
+
+test-all: export FULL = 1
+test-all: test ## The same at every parameter point, with ten million vectors a unit
 
 test-one: $(READY) ## Run one test again: T='tb/...::test_x[...]' SEED=1 WAVES=1
 	@$(BIN)/python -m polyshade.scripts.flow.tools cocotb

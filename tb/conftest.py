@@ -4,12 +4,21 @@ from collections.abc import Generator
 
 import pytest
 
-from tb.runner import SEED, WAVES
+from tb.runner import FULL, SEED, WAVES
 
 
 def pytest_report_header() -> str:
     """The seed of the run."""
-    return f"seed: {SEED} (choose one with SEED=...)"
+    return f"seed: {SEED} (choose one with SEED=...), {'all tests' if FULL else 'more with FULL=1'}"
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what only ``make test-all`` runs, unless it is asked for by its name."""
+    named = any("::" in argument for argument in config.args)
+    left_out = [item for item in items if not FULL and not named and item.get_closest_marker("full")]
+    if left_out:
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item not in left_out]
 
 
 @pytest.hookimpl(wrapper=True)

@@ -110,6 +110,10 @@ def _main() -> Path:
 
 
 def points(*points: Point) -> pytest.MarkDecorator:
-    """Parametrize a test over parameter points: ``test_third[WIDTH=8,FORM=0]``; ``[default]`` has no parameter set."""
+    """Parametrize a test over parameter points: ``test_third[WIDTH=8,FORM=0]``; ``[default]`` has no parameter set.
+
+    From the third on they are left to ``make test-all``.
+    """
     ids = [",".join(f"{name}={value}" for name, value in point.items()) or "default" for point in points]
-    return pytest.mark.parametrize("point", points, ids=ids)
+    chosen = [pytest.param(point, marks=pytest.mark.full if i > 1 else ()) for i, point in enumerate(points)]
+    return pytest.mark.parametrize("point", chosen, ids=ids)

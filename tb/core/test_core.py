@@ -19,13 +19,13 @@ from cocotbext.axi import (
 from polyshade.golden import contract as k
 from polyshade.golden.core import Told
 from polyshade.golden.core import core as golden_core
-from polyshade.golden.registers import ID, after_reset, pack, registers, unpack
+from polyshade.golden.registers import ID, after_reset, every, pack, unpack
 
 from tb.bench import PRESSURE, Bench, Mismatch, checked, no_path
 from tb.core.vectors import CODES, Spans, settings, spans
 from tb.runner import points, simulate
 
-OFFSETS = {register.name: register.offset for register in registers()}
+OFFSETS = {register.name: register.offset for register in every()}
 NAMES = {offset: name for name, offset in OFFSETS.items()}
 PAYLOAD = ["tdata", "tuser", "tlast"]
 BEAT = k.LINE_DATA_W // 8  # bytes

@@ -42,7 +42,7 @@ def test_numpy(case: Case) -> None:
     assert result.throughput == pytest.approx(1 / case.clocks_per_vector, rel=0.01 if result.vectors > 1000 else 0.5)
 
 
-@pytest.mark.parametrize(("module", "point"), at_points())
+@pytest.mark.parametrize(("module", "point"), [*at_points()])
 def test_cocotb(module: str, point: Point) -> None:
     """All outputs on every clock, with gaps and resets."""
     simulate(module, point, "tb.case_bench")

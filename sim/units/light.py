@@ -137,7 +137,7 @@ def _lobe(form: str) -> Iterator[Case]:
     def some(rng: np.random.Generator, rows: int) -> np.ndarray:
         """Versines of every size, all the smallest ones, and around 1 and 2."""
         x = rng.integers(0, most, rows, endpoint=True) >> np.maximum(rng.integers(-2, 19, rows), 0)
-        x[:96] = np.r_[np.arange(64), one + np.arange(-8, 8), most - np.arange(16)]
+        x[:96] = np.r_[np.arange(64), one + np.arange(-8, 8), most - np.arange(16)][:rows]
         return x
 
     def case(stages: int, fold: int, note: str, vectors: Callable, more: Callable | None = None) -> Case:

@@ -143,6 +143,27 @@ VARIANT_V6 = 6  # the mean
 VARIANT_EXACT = 7  # every normal normalized
 VARIANT_W = 3
 
+# ---- triangles -------------------------------------------------------------------------------------------------
+SUBPIXEL_F = 8  # a vertex stands on a grid of 1/256 pixel
+COORDINATE_W = 24  # S15.8: vertices up to 32768 pixels from the frame's first pixel
+DEPTH_F = 24  # depth of a vertex and of a pixel, U0.24 in [0, 1)
+VERTEX_F = 16  # components of a vertex' normal, S0.16 in [-1, 1)
+VERTEX_W = 17
+AREA_W = 51  # twice the area of a triangle, and the sums of two products that its increments are made of, in a sign more
+RECIPROCAL_F = 17  # 1/m of m in [1, 2), U0.17 below 1
+RECIPROCAL_M_W = 20  # bits of m that are looked at, U1.19
+PLANE_F = 30  # depth and its increments, S1.30, modulo 4
+LINE_W = 17  # a line or column of the plane of vertices, S16
+REST_W = 26  # remainder of an edge on its first line
+EDGE_W = 1 + 3 * LINE_W + COORDINATE_W + COORDINATE_W + 1 + REST_W  # right, lines, line, column, dy, dx, remainder
+VERTEX_HEAD_W = 1 + TAG_W + DEPTH_F + 3 * VERTEX_W + 2 * COORDINATE_W  # flat, tag, depth, normal, y, x
+HEAD_W = 1 + 3 * COUNT_W + VERTEX_HEAD_W  # large, last line, last column and first column of the box, vertex 0
+WALK_W = 2 + COUNT_W + 2 * PLACE_W  # none, last, count, line, column of a run
+CULL_NONE = 0  # both sides are drawn
+CULL_BACK = 1  # triangles that turn clockwise on the screen are left out
+CULL_FRONT = 2  # those that turn counter-clockwise
+CULL_W = 2
+
 # ---- packets (AXI4-Stream, one beat each) ----------------------------------------------------------------------
 SPAN_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
 SPAN_COUNT_LSB = 144  # pixels of the span
@@ -158,6 +179,7 @@ SURFACE_DATA_W = 64  # a packet: a triangle in four beats, then its runs, a beat
 TRIANGLE_BEATS = 4  # box; normal; increment per column; increment per line
 TRIANGLE_DATA_W = 256  # the first beat in the lowest bits
 TRIANGLE_EXP_W = 4  # of an increment: 2^0 to 2^15
+VERTEX_DATA_W = 256  # words of 32 bits; three beats a triangle, tlast with the third
 NORMAL_DATA_W = 64  # x, y, z, S1.16, at bit 0, 18, 36
 PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
 COLOUR_DATA_W = 3 * PIXEL_W  # red in the low third, then green, blue
@@ -174,6 +196,10 @@ LATENCY_HORNER_SEQ = 6  # clocks a value: load and the five steps of P1, Fig. 9
 LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the rounding
 LATENCY_FIFO = 2  # memory, output register
 LATENCY_FIFO_BLOCK = 3  # one more
+LATENCY_CROSS = LATENCY_MUL + 2  # products, difference, sum
+LATENCY_EXPONENT = 4  # four shifter levels
+LATENCY_RECIPROCAL = LATENCY_EXPONENT + 9  # two bits of the quotient a clock
+LATENCY_GRADIENT = 3 + LATENCY_MUL + 2  # three shifter levels, product, rounding, pair
 LATENCY_RSQRT = 2 + 2 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
 LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
 LATENCY_UNIT = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products

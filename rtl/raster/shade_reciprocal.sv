@@ -1,0 +1,75 @@
+// shade_reciprocal: 1/a = r 2^-17 2^-e for an integer a, 1 <= a < 2^51: range reduction, then a division bit by bit.
+//
+//   a_i  U51.0         with start_i, at most every LATENCY_RECIPROCAL clocks
+//   e_o  U6            place of the highest bit of a, LATENCY_EXPONENT = 4 clocks after start_i; holds
+//   r_o  U0.17         LATENCY_RECIPROCAL = 13 clocks after start_i; holds until the next one
+//
+//   m = a 2^-e         U1.19, cut            r = 1/m to nearest, ties up, at most 1 - 2^-17
+//
+// Relative error between -2^-17 and 2^-17 + 2^-19. No multiplier: two quotient bits a clock.
+// Example: a = 3 -> e = 1, m = 1.5, r = 0.66667 (87381).
+module shade_reciprocal (
+  input  logic                                clk_i,
+  input  logic                                start_i,
+  input  logic [     shade_pkg::AREA_W-1:0]   a_i,
+  output logic [                       5:0]   e_o,
+  output logic [shade_pkg::RECIPROCAL_F-1:0]  r_o
+);
+  localparam int A_W = shade_pkg::AREA_W;
+  localparam int M_W = shade_pkg::RECIPROCAL_M_W;
+  localparam int R_F = shade_pkg::RECIPROCAL_F;
+
+  // ---- m: shifted left by 32, 16, 8 and 4, 2 and 1, as long as the highest bits are 0 -----------------------------------
+  logic [A_W-1:0] a_q1;
+  logic [M_W+14:0] a_q2;
+  logic [M_W+2:0] a_q3;
+  logic [M_W-1:0] m_q4;
+  logic [5:0] shift_q;  // {32, 16, 8, 4, 2, 1}, each a clock later than what it moves
+  logic [M_W+6:0] by8;
+  logic [M_W:0] by2;
+  logic is32, is16, is8, is4, is2, is1;
+  assign is32 = a_i[A_W-1-:32] == '0;
+  assign is16 = a_q1[A_W-1-:16] == '0;
+  assign is8  = a_q2[M_W+14-:8] == '0;
+  assign by8  = is8 ? a_q2[M_W+6:0] : a_q2[M_W+14:8];
+  assign is4  = by8[M_W+6-:4] == '0;
+  assign is2  = a_q3[M_W+2-:2] == '0;
+  assign by2  = is2 ? a_q3[M_W:0] : a_q3[M_W+2:2];
+  assign is1  = !by2[M_W];
+  logic [2:0] start_q;
+  logic load_q;
+  always_ff @(posedge clk_i) begin
+    a_q1    <= is32 ? {a_i[A_W-33:0], 32'd0} : a_i;
+    a_q2    <= is16 ? a_q1[A_W-17-:M_W+15] : a_q1[A_W-1-:M_W+15];
+    a_q3    <= is4 ? by8[M_W+2:0] : by8[M_W+6:4];
+    {load_q, start_q} <= {start_q, start_i};
+    if (start_i) shift_q[5] <= is32;
+    if (start_q[0]) shift_q[4] <= is16;
+    if (start_q[1]) shift_q[3:2] <= {is8, is4};
+    if (start_q[2]) begin
+      shift_q[1:0] <= {is2, is1};
+      m_q4         <= is1 ? by2[M_W-1:0] : by2[M_W:1];
+    end
+  end
+  assign e_o = 6'(A_W - 1) - shift_q;
+
+  // ---- 1/m: remainders of 2^(M_W-1) / m, two bits of the quotient a clock, one more than r has ---------------------------
+  logic [M_W-1:0] rest_q, rest, rest_1, rest_2;
+  logic [M_W:0] less_1, less_2;
+  logic [R_F:0] quotient_q, quotient;
+  logic [3:0] left_q;
+  assign rest     = load_q ? M_W'(1) << (M_W - 1) : rest_q;
+  assign less_1   = {rest, 1'b0} - {1'b0, m_q4};
+  assign rest_1   = less_1[M_W] ? {rest[M_W-2:0], 1'b0} : less_1[M_W-1:0];
+  assign less_2   = {rest_1, 1'b0} - {1'b0, m_q4};
+  assign rest_2   = less_2[M_W] ? {rest_1[M_W-2:0], 1'b0} : less_2[M_W-1:0];
+  assign quotient = {quotient_q[R_F-2:0], !less_1[M_W], !less_2[M_W]};
+  logic [R_F:0] rounded;
+  assign rounded = {1'b0, quotient[R_F:1]} + (R_F + 1)'(quotient[0]);
+  always_ff @(posedge clk_i) begin
+    rest_q     <= rest_2;
+    quotient_q <= quotient;
+    left_q     <= load_q ? 4'd8 : left_q - 4'(left_q != 4'd0);
+    if (left_q == 4'd1 && !load_q) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
+  end
+endmodule

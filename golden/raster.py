@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import contract as k
 from .fixed import Int, integers, round, wrap
 from .stream import walk
+from .types import VERTEX, pack
 
 ONE = 1 << k.SUBPIXEL_F
 HALF = ONE // 2
@@ -216,7 +217,7 @@ def runs(v: Vertices, view: View) -> tuple[Int, Int, Int, Int]:
 def narrow(increments: Int, size: Int) -> NDArray[np.bool_]:
     """Is the increment of every component of a normal, times the largest power of two below ``size``, in [-2, 2)?"""
     power = np.frexp(np.maximum(size - 1, 1).astype(np.float64))[1].astype(np.int64) - 1
-    return np.all((increments[:, :3] >> k.STEP_F - power[:, None]) + 1 >> 1 == 0, axis=1)
+    return np.all((increments[:, :3] >> k.STEP_F + 1 - power[:, None]) + 1 >> 1 == 0, axis=1)
 
 
 def scan(v: Vertices, view: View) -> Scanned:
@@ -272,3 +273,20 @@ def depths(s: Scanned) -> tuple[Int, Int, Int, Int]:
     value = wrap(at_runs(s)[run, 3] + s.dcolumn[s.triangle[run], 3] * step, k.STEP_W)
     limit = (1 << k.DEPTH_F) - 1
     return run, s.column[run] + step, s.line[run], np.clip(value >> k.PLANE_F - k.DEPTH_F, 0, limit)
+
+
+def lines(s: Scanned) -> dict[str, Int]:
+    """The runs as packets SPAN, by the names of its leaves (``shade_lines``)."""
+    start, single = at_runs(s), s.count == 1
+    vectors = {"normal": start, "increment": np.where(single[:, None], 0, s.dcolumn[s.triangle])}
+    found = {f"{name}.{axis}": v[:, i] for name, v in vectors.items() for i, axis in enumerate("xyz")}
+    one = np.full(len(s.count), 1 << k.INTENSITY_F)
+    return found | {"count": s.count, "tag": s.tag[s.triangle], "cosine": one, "flat": s.flat[s.triangle]}
+
+
+def beats(v: Vertices) -> dict[str, NDArray]:
+    """The packets: ``s_axis_vertex_tdata`` and ``_tlast``."""
+    values = {"x": v.x, "y": v.y, "depth": v.depth, "tag": v.tag[:, None], "flat": v.flat[:, None]}
+    values |= {f"normal.{axis}": v.normal[..., i] for i, axis in enumerate("xyz")}
+    data = pack(VERTEX, values).reshape(-1, k.VERTEX_DATA_W // 32)
+    return {"s_axis_vertex_tdata": data, "s_axis_vertex_tlast": np.arange(len(data)) % 3 // 2}

@@ -223,7 +223,7 @@ GROWTH = Struct(
     "what an interpolated normal grows by from pixel to pixel, or from line to line",
     (
         _part("mantissa", VEC, "increment times 2^exp"),
-        Field("exp", k.TRIANGLE_EXP_W, "as large as it fits, so that no bit is lost"),
+        Field("exp", k.TRIANGLE_EXP_W, "as wide as it fits, so that no bit is lost"),
         _unused(10 - k.TRIANGLE_EXP_W),
     ),
 )
@@ -258,6 +258,96 @@ RUN = Struct(
         _unused(16 - k.PLACE_W),
         Field("count", k.COUNT_W, "pixels, at least 1; in a triangle's last run also 0"),
         _unused(32 - k.COUNT_W),
+    ),
+)
+OUTWARD = _vector("outward_t", "a normal of any length but 0, components in [-1, 1)", 32, "S15.16")
+VERTEX = Struct(
+    "vertex_t",
+    "a vertex of a triangle, after projection; of tag and flat those of the first one count",
+    (
+        Field("x", 32, "column in 1/256 pixel, -32768 to 32768 pixels; column 0 has its centre at 128", "S23.8"),
+        Field("y", 32, "line in 1/256 pixel, downwards", "S23.8"),
+        Field("depth", 32, "0 to 1 - 2^-24, less is nearer", "U8.24"),
+        _part("normal", OUTWARD),
+        Field("tag", k.TAG_W, "given back with every pixel"),
+        Field("flat", 1, "the triangle passed P2's criterion: no normalizing in diffuse light"),
+        _unused(47),
+    ),
+)
+
+# ---- from vertices to triangles
+
+SHORT = _vector("short_t", "a normal", k.VERTEX_W, "S0.16")
+CORNER = Struct(
+    "corner_t",
+    "what a triangle has of its vertex 0",
+    (
+        Field("x", k.COORDINATE_W, "", "S15.8"),
+        Field("y", k.COORDINATE_W, "", "S15.8"),
+        _part("normal", SHORT),
+        Field("depth", k.DEPTH_F, "", "U0.24"),
+        Field("tag", k.TAG_W, ""),
+        Field("flat", 1, ""),
+    ),
+)
+SIZED = Struct(
+    "sized_t",
+    "a triangle without its increments",
+    (
+        _part("corner", CORNER),
+        Field("left", k.COUNT_W, "first column of the box"),
+        Field("right", k.COUNT_W, "the one behind its last"),
+        Field("bottom", k.COUNT_W, "the line behind its last"),
+        Field("wide", 1, "its differences of x and y are wider than 17 bits"),
+    ),
+)
+EDGE = Struct(
+    "edge_t",
+    "an edge, from its first line on, see shade_edges",
+    (
+        Field("rest", k.REST_W, "", "S26"),
+        Field("dx", k.COORDINATE_W + 1, "", "S16.8"),
+        Field("dy", k.COORDINATE_W, "", "U16.8"),
+        Field("column", k.LINE_W, "", "S17"),
+        Field("line", k.LINE_W, "", "S17"),
+        Field("lines", k.LINE_W, ""),
+        Field("right", 1, ""),
+    ),
+)
+WALKED = Struct(
+    "walked_t",
+    "a run as shade_raster gives it",
+    (
+        Field("column", k.PLACE_W, ""),
+        Field("line", k.PLACE_W, ""),
+        Field("count", k.COUNT_W, ""),
+        Field("last", 1, "of its triangle"),
+        Field("none", 1, "the triangle has no run; this stands for it"),
+    ),
+)
+PAIR = Struct(
+    "pair_t",
+    "increments of a component: S2.29 of a normal, S1.30 of a depth",
+    (Field("column", k.STEP_W, "", "S2.29"), Field("line", k.STEP_W, "", "S2.29")),
+)
+PLANE = Struct(
+    "plane_t",
+    "normal and depth, or what they grow by, modulo 4",
+    (_part("normal", STEP), Field("depth", k.STEP_W, "", "S1.30")),
+)
+SURFACE = Struct(
+    "surface_t",
+    "a triangle whose runs follow on a stream of their own",
+    (
+        _part("value", PLANE, "at the first pixel of the first run"),
+        _part("dcolumn", PLANE),
+        _part("dline", PLANE),
+        Field("columns", k.COUNT_W, "of a box that holds all pixels"),
+        Field("lines", k.COUNT_W, ""),
+        Field("left", k.PLACE_W, "columns of the box on the left of the first pixel"),
+        Field("tag", k.TAG_W, ""),
+        Field("flat", 1, ""),
+        Field("narrow", 1, "the increments of the normal fit a packet TRIANGLE"),
     ),
 )
 PIXEL = _vector("pixel_t", "a pixel", k.PIXEL_W, "U0.16", ("diffuse", "specular"))
@@ -419,7 +509,8 @@ STATUS = Struct(
 STRUCTS: dict[str, Struct] = {
     struct.name: struct
     for struct in (
-        VEC, STEP, RGB, SPAN, GROWTH, TRIANGLE, RUN, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE,
+        VEC, STEP, RGB, SPAN, GROWTH, TRIANGLE, RUN, OUTWARD, VERTEX, SHORT, CORNER, SIZED, EDGE, WALKED, PAIR, PLANE,
+        SURFACE, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE,
         INTENSITY, FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW, NODE_FLAGS, ERRORS, STATUS,
     )
 }  # fmt: skip

@@ -161,6 +161,23 @@ package shade_pkg;
   localparam int VARIANT_EXACT = 7;  // every normal normalized
   localparam int VARIANT_W = 3;
 
+  // triangles
+  localparam int SUBPIXEL_F = 8;  // a vertex stands on a grid of 1/256 pixel
+  localparam int COORDINATE_W = 24;  // S15.8: vertices up to 32768 pixels from the frame's first pixel
+  localparam int DEPTH_F = 24;  // depth of a vertex and of a pixel, U0.24 in [0, 1)
+  localparam int VERTEX_F = 16;  // components of a vertex' normal, S0.16 in [-1, 1)
+  localparam int VERTEX_W = 17;
+  localparam int AREA_W = 51;  // twice the area of a triangle, and the sums of two products that its increments are made of, in a sign more
+  localparam int RECIPROCAL_F = 17;  // 1/m of m in [1, 2), U0.17 below 1
+  localparam int RECIPROCAL_M_W = 20;  // bits of m that are looked at, U1.19
+  localparam int PLANE_F = 30;  // depth and its increments, S1.30, modulo 4
+  localparam int LINE_W = 17;  // a line or column of the plane of vertices, S16
+  localparam int REST_W = 26;  // remainder of an edge on its first line
+  localparam int CULL_NONE = 0;  // both sides are drawn
+  localparam int CULL_BACK = 1;  // triangles that turn clockwise on the screen are left out
+  localparam int CULL_FRONT = 2;  // those that turn counter-clockwise
+  localparam int CULL_W = 2;
+
   // packets (AXI4-Stream, one beat each)
   localparam int SPAN_DATA_W = 192;  // node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
   localparam int SPAN_COUNT_LSB = 144;  // pixels of the span
@@ -176,6 +193,7 @@ package shade_pkg;
   localparam int TRIANGLE_BEATS = 4;  // box; normal; increment per column; increment per line
   localparam int TRIANGLE_DATA_W = 256;  // the first beat in the lowest bits
   localparam int TRIANGLE_EXP_W = 4;  // of an increment: 2^0 to 2^15
+  localparam int VERTEX_DATA_W = 256;  // words of 32 bits; three beats a triangle, tlast with the third
   localparam int NORMAL_DATA_W = 64;  // x, y, z, S1.16, at bit 0, 18, 36
   localparam int PIXEL_DATA_W = 32;  // diffuse in the low half, specular in the high half
   localparam int COLOUR_DATA_W = 48;  // red in the low third, then green, blue
@@ -192,6 +210,10 @@ package shade_pkg;
   localparam int LATENCY_FDIFF = 6;  // two shifter levels, two adder levels, the state, the rounding
   localparam int LATENCY_FIFO = 2;  // memory, output register
   localparam int LATENCY_FIFO_BLOCK = 3;  // one more
+  localparam int LATENCY_CROSS = 4;  // products, difference, sum
+  localparam int LATENCY_EXPONENT = 4;  // four shifter levels
+  localparam int LATENCY_RECIPROCAL = 13;  // two bits of the quotient a clock
+  localparam int LATENCY_GRADIENT = 7;  // three shifter levels, product, rounding, pair
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
@@ -382,7 +404,7 @@ package shade_pkg;
   // what an interpolated normal grows by from pixel to pixel, or from line to line
   typedef struct packed {
     logic [5:0] unused_58;  // ignored
-    logic [3:0] exp;  // as large as it fits, so that no bit is lost
+    logic [3:0] exp;  // as wide as it fits, so that no bit is lost
     vec_t mantissa;  // increment times 2^exp
   } growth_t;
 
@@ -411,6 +433,95 @@ package shade_pkg;
     logic [3:0] unused_12;  // ignored
     logic [11:0] column;  // its first pixel
   } run_t;
+
+  // a normal of any length but 0, components in [-1, 1)
+  typedef struct packed {
+    logic signed [31:0] z;  // S15.16
+    logic signed [31:0] y;  // S15.16
+    logic signed [31:0] x;  // S15.16
+  } outward_t;
+
+  // a vertex of a triangle, after projection; of tag and flat those of the first one count
+  typedef struct packed {
+    logic [46:0] unused_209;  // ignored
+    logic flat;  // the triangle passed P2's criterion: no normalizing in diffuse light
+    logic [15:0] tag;  // given back with every pixel
+    outward_t normal;  // a normal of any length but 0, components in [-1, 1)
+    logic [31:0] depth;  // U8.24: 0 to 1 - 2^-24, less is nearer
+    logic signed [31:0] y;  // S23.8: line in 1/256 pixel, downwards
+    logic signed [31:0] x;  // S23.8: column in 1/256 pixel, -32768 to 32768 pixels; column 0 has its centre at 128
+  } vertex_t;
+
+  // a normal
+  typedef struct packed {
+    logic signed [16:0] z;  // S0.16
+    logic signed [16:0] y;  // S0.16
+    logic signed [16:0] x;  // S0.16
+  } short_t;
+
+  // what a triangle has of its vertex 0
+  typedef struct packed {
+    logic flat;
+    logic [15:0] tag;
+    logic [23:0] depth;  // U0.24
+    short_t normal;  // a normal
+    logic signed [23:0] y;  // S15.8
+    logic signed [23:0] x;  // S15.8
+  } corner_t;
+
+  // a triangle without its increments
+  typedef struct packed {
+    logic wide;  // its differences of x and y are wider than 17 bits
+    logic [12:0] bottom;  // the line behind its last
+    logic [12:0] right;  // the one behind its last
+    logic [12:0] left;  // first column of the box
+    corner_t corner;  // what a triangle has of its vertex 0
+  } sized_t;
+
+  // an edge, from its first line on, see shade_edges
+  typedef struct packed {
+    logic right;
+    logic [16:0] lines;
+    logic signed [16:0] line;  // S17
+    logic signed [16:0] column;  // S17
+    logic [23:0] dy;  // U16.8
+    logic signed [24:0] dx;  // S16.8
+    logic signed [25:0] rest;  // S26
+  } edge_t;
+
+  // a run as shade_raster gives it
+  typedef struct packed {
+    logic none;  // the triangle has no run; this stands for it
+    logic last;  // of its triangle
+    logic [12:0] count;
+    logic [11:0] line;
+    logic [11:0] column;
+  } walked_t;
+
+  // increments of a component: S2.29 of a normal, S1.30 of a depth
+  typedef struct packed {
+    logic signed [31:0] line;  // S2.29
+    logic signed [31:0] column;  // S2.29
+  } pair_t;
+
+  // normal and depth, or what they grow by, modulo 4
+  typedef struct packed {
+    logic signed [31:0] depth;  // S1.30
+    step_t normal;  // an interpolated normal, or what it grows by
+  } plane_t;
+
+  // a triangle whose runs follow on a stream of their own
+  typedef struct packed {
+    logic narrow;  // the increments of the normal fit a packet TRIANGLE
+    logic flat;
+    logic [15:0] tag;
+    logic [11:0] left;  // columns of the box on the left of the first pixel
+    logic [12:0] lines;
+    logic [12:0] columns;  // of a box that holds all pixels
+    plane_t dline;  // normal and depth, or what they grow by, modulo 4
+    plane_t dcolumn;  // normal and depth, or what they grow by, modulo 4
+    plane_t value;  // at the first pixel of the first run
+  } surface_t;
 
   // a record, without the light at its nodes
   typedef struct packed {

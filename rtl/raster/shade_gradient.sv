@@ -2,7 +2,7 @@
 //
 //   sum_i       S52.0     v1 dy2 - v2 dy1, then with line_i v2 dx1 - v1 dx2, the sign of A taken out
 //   e_i, r_i    1/A = r 2^-17 2^-e; e_i with sum_i, r_i 3 clocks later
-//   column_o    S2.29 of a normal's component, S1.30 of a depth (depth_i); line_o as well; both 0 if one does not fit
+//   pair_o      column, line: S2.29 of a normal's component, S1.30 of a depth (depth_i); both 0 if one does not fit
 //
 //   aligned = sum 2^(23-e)   of a depth 2^(16-e): 35 bits, 19 more than the result, cut
 //   result  = aligned r / 2^19, to nearest, ties up: error at most 3/4 ulp beside that of r
@@ -20,8 +20,7 @@ module shade_gradient (
   input  logic [                     5:0]   e_i,
   input  logic [shade_pkg::RECIPROCAL_F-1:0] r_i,
   output logic                              valid_o,
-  output logic signed [shade_pkg::STEP_W-1:0] column_o,
-  output logic signed [shade_pkg::STEP_W-1:0] line_o
+  output shade_pkg::pair_t                  pair_o
 );
   localparam int SUM_W = shade_pkg::AREA_W + 1;
   localparam int UP = 23;  // of a normal, moved up as far as the least e demands; e moves it down
@@ -83,8 +82,7 @@ module shade_gradient (
   assign none = wide_q || wide_q6;
   always_ff @(posedge clk_i) begin
     if (!line_q6) {wide_q, column_q} <= {wide_q6, g_q6};
-    column_o <= none ? '0 : column_q;
-    line_o   <= none ? '0 : g_q6;
+    pair_o <= none ? '0 : {g_q6, column_q};
   end
   shade_valid #(.DEPTH(shade_pkg::LATENCY_GRADIENT)) u_valid (.clk_i, .rst_i, .valid_i(valid_i && line_i), .valid_o);
 endmodule

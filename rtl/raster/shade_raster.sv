@@ -21,9 +21,9 @@ module shade_raster #(
   input  logic [shade_pkg::COUNT_W-1:0]    lines_i,
   input  logic                             edge_valid_i,
   output logic                             edge_ready_o,
-  input  logic [ shade_pkg::EDGE_W-1:0]    edge_i,
+  input  shade_pkg::edge_t                 edge_i,
   output logic                             valid_o,
-  output logic [shade_pkg::WALK_W-1:0]     run_o,
+  output shade_pkg::walked_t               run_o,
   input  logic                             credit_i
 );
   if (CREDIT_LOG2 < 3) begin : g_check
@@ -35,13 +35,6 @@ module shade_raster #(
   localparam int R_W = shade_pkg::REST_W + 1;
   localparam int P_W = shade_pkg::PLACE_W;
   localparam int C_W = shade_pkg::COUNT_W;
-
-  logic right;
-  logic [L_W-1:0] lines, line, column;
-  logic [W-1:0] dy;
-  logic signed [W:0] dx;
-  logic [shade_pkg::REST_W-1:0] rest;
-  assign {right, lines, line, column, dy, dx, rest} = edge_i;
 
   // ---- control: two edges, then lines; when one edge ends, the third one takes its place -----------------------------------
   typedef enum logic [1:0] {FIRST, SECOND, WALK, THIRD} state_e;
@@ -55,12 +48,12 @@ module shade_raster #(
   assign emit         = settled && some_credit_q;
   assign finish       = walk && third_q && (over == 2'b11 || below) && some_credit_q;
   assign edge_ready_o = state_q != WALK;
-  assign load         = !edge_valid_i || state_q == WALK ? 2'b00 : state_q == THIRD ? over : {right, !right};
+  assign load         = !edge_valid_i || state_q == WALK ? 2'b00 : state_q == THIRD ? over : {edge_i.right, !edge_i.right};
   always_ff @(posedge clk_i) begin
     case (state_q)
       FIRST: begin
         third_q <= 1'b0;
-        y_q     <= line;
+        y_q     <= edge_i.line;
         if (edge_valid_i) state_q <= SECOND;
       end
       SECOND: if (edge_valid_i) state_q <= WALK;
@@ -90,11 +83,11 @@ module shade_raster #(
     assign c[i]    = c_q;
     always_ff @(posedge clk_i) begin
       if (load[i]) begin
-        r_q    <= R_W'($signed(rest));
-        dx_q   <= dx;
-        dy_q   <= dy;
-        c_q    <= column;
-        left_q <= lines;
+        r_q    <= R_W'(edge_i.rest);
+        dx_q   <= edge_i.dx;
+        dy_q   <= edge_i.dy;
+        c_q    <= edge_i.column;
+        left_q <= edge_i.lines;
       end else if (emit) begin
         r_q    <= r_q - R_W'(dx_q);
         left_q <= left_q - L_W'(1);

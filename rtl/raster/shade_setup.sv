@@ -11,8 +11,8 @@
 //   head_valid_o ...   vertex 0, box, tag, mark: once a triangle, not before its first pair is under way
 //
 // Pairs and edges go into FIFOs that hold four triangles: with head_ready_i no more are on the way.
-// Triangles whose differences do not fit 17 bits (256 pixels) take several passes a sum (large).
-// A triangle in 14 clocks, a large one in 36, one that is left out in 6. Four multipliers (cross 2, gradient 2).
+// Triangles whose differences do not fit 17 bits (256 pixels) take several passes a sum (wide).
+// A triangle in 14 clocks, a wide one in 36, one that is left out in 6. Four multipliers (cross 2, gradient 2).
 // Example: golden.raster.gradients. Source: P4 (increments).
 module shade_setup (
   input  logic                                    clk_i,
@@ -28,19 +28,15 @@ module shade_setup (
   input  logic [1:0][  shade_pkg::COORDINATE_W:0] dy_i,
   input  logic [1:0][       shade_pkg::DEPTH_F:0] ddepth_i,
   input  logic [1:0][ 3*shade_pkg::VERTEX_W+2:0]  dnormal_i,
-  input  logic [  3*shade_pkg::VERTEX_W-1:0]      normal_i,
-  input  logic [     shade_pkg::DEPTH_F-1:0]      depth_i,
-  input  logic [       shade_pkg::TAG_W-1:0]      tag_i,
-  input  logic                                    mark_i,
+  input  shade_pkg::corner_t                      corner_i,
   input  logic [3:0][   shade_pkg::LINE_W-1:0]    box_i,
   output logic                                    edge_valid_o,
-  output logic [      shade_pkg::EDGE_W-1:0]      edge_o,
+  output shade_pkg::edge_t                        edge_o,
   output logic                                    pair_valid_o,
-  output logic signed [ shade_pkg::STEP_W-1:0]    pair_column_o,
-  output logic signed [ shade_pkg::STEP_W-1:0]    pair_line_o,
+  output shade_pkg::pair_t                        pair_o,
   output logic                                    head_valid_o,
   input  logic                                    head_ready_i,
-  output logic [      shade_pkg::HEAD_W-1:0]      head_o,
+  output shade_pkg::sized_t                       head_o,
   output logic                                    error_area_o,
   output logic                                    culled_o,
   output logic                                    empty_o
@@ -50,11 +46,11 @@ module shade_setup (
   localparam int N_W = shade_pkg::VERTEX_W + 1;
   localparam int Z_W = shade_pkg::DEPTH_F + 1;
   localparam int CROSS = shade_pkg::LATENCY_CROSS;
-  localparam int PIXEL_W = 13;
+  localparam int PIXEL_W = shade_pkg::COUNT_W;
 
   // a number's upper part and its lower 17 bits, or as much of a small one as a multiplier takes
-  function automatic logic [17:0] part(input logic [W:0] x, input logic upper, input logic large);
-    part = upper ? {{(35 - W) {x[W]}}, x[W-1:17]} : {x[17] && !large, x[16:0]};
+  function automatic logic [17:0] part(input logic [W:0] x, input logic upper, input logic wide);
+    part = upper ? {{(35 - W) {x[W]}}, x[W-1:17]} : {x[17] && !wide, x[16:0]};
   endfunction
 
   // ---- first place: waits for the area ----------------------------------------------------------------------------------
@@ -62,7 +58,7 @@ module shade_setup (
   logic [1:0][W:0] dx_q, dy_q;
   logic [1:0][Z_W-1:0] dz_q;
   logic [1:0][2:0][N_W-1:0] dn_q;
-  logic [shade_pkg::VERTEX_HEAD_W-1:0] base_q;
+  shade_pkg::corner_t corner_q;
   logic [L_W-1:0] low_q, high_q, top_q, bottom_q;
   assign ready_o = !first_q;
   assign load    = valid_i && ready_o;
@@ -78,7 +74,7 @@ module shade_setup (
   always_ff @(posedge clk_i) begin
     if (load) begin
       {dx_q, dy_q, dz_q, dn_q} <= {dx_i, dy_i, ddepth_i, dnormal_i};
-      base_q                   <= {mark_i, tag_i, depth_i, normal_i, y_i[0], x_i[0]};
+      corner_q                 <= corner_i;
       low_q                    <= box_i[1][L_W-1] ? '0 : box_i[1];
       high_q                   <= at_most(box_i[0], columns_i);
       top_q                    <= box_i[3][L_W-1] ? '0 : box_i[3];
@@ -100,8 +96,9 @@ module shade_setup (
   // ---- second place: the steps 0 to 2 are edges, 3 to 10 sums, column and line of each component in turn --------------------
   localparam int EDGES = 3;
   localparam int LAST = 10;
-  logic start, second_q, c_large_q, c_minus_q, face, main, whole, done, final_step, known_q, minus_q, at_begin;
+  logic start, second_q, c_minus_q, face, main, whole, done, final_step, known_q, minus_q, at_begin;
   logic [3:0] step_q;
+  shade_pkg::sized_t c_sized_q;
   logic [1:0][W:0] c_dx_q, c_dy_q;
   logic [1:0][Z_W-1:0] c_dz_q;
   logic [1:0][2:0][N_W-1:0] c_dn_q;
@@ -111,12 +108,12 @@ module shade_setup (
   assign is_edge    = step_q < 4'(EDGES);
   assign is_line    = !step_q[0];
   assign is_depth   = step_q[3] && step_q != 4'd8;
-  assign at_begin   = part_q == {is_depth, c_large_q};
+  assign at_begin   = part_q == {is_depth, c_sized_q.wide};
   assign face       = first_q && !asked_q && (!second_q || at_begin);
   assign final_step = step_q == 4'(LAST);
   assign main       = second_q && !face && !(final_step && head_valid_o);
   assign start      = known_q && edge_some && (!second_q || (done && final_step));
-  assign parts      = face ? {2{large_q}} : is_edge ? {1'b0, large_q} : {is_depth, c_large_q};
+  assign parts      = face ? {2{large_q}} : is_edge ? {1'b0, large_q} : {is_depth, c_sized_q.wide};
   assign now        = face ? face_part_q : part_q;
   assign whole      = now == 2'b00;
   assign done       = main && whole;
@@ -140,12 +137,11 @@ module shade_setup (
       step_q <= 4'd0;
       part_q <= {1'b0, large_q};
       {c_dx_q, c_dy_q, c_dz_q, c_dn_q} <= {dx_q, dy_q, dz_q, dn_q};
-      {c_large_q, c_minus_q, c_e_q}    <= {large_q, minus_q, e};
-      {c_base_q, c_low_q, c_high_q, c_bottom_q} <= {base_q, low_q[PIXEL_W-1:0], high_q[PIXEL_W-1:0],
-                                                    bottom_q[PIXEL_W-1:0]};
+      {c_minus_q, c_e_q}               <= {minus_q, e};
+      c_sized_q <= {large_q, bottom_q[PIXEL_W-1:0], high_q[PIXEL_W-1:0], low_q[PIXEL_W-1:0], corner_q};
     end else if (main) begin
       if (whole) step_q <= next_step;
-      part_q <= whole ? {next_depth, c_large_q} : following(now, c_large_q);
+      part_q <= whole ? {next_depth, c_sized_q.wide} : following(now, c_sized_q.wide);
     end
     second_q <= !rst_i && (start || (second_q && !(done && final_step)));
   end
@@ -208,31 +204,27 @@ module shade_setup (
   end
   shade_reciprocal u_reciprocal (.clk_i, .start_i(ask_q), .a_i(area_q), .e_o(e), .r_o(r));
 
-  // ---- edges and increments -----------------------------------------------------------------------------------------------------
-  logic [shade_pkg::EDGE_W-1:0] shape;
-  localparam int SHAPE_W = shade_pkg::EDGE_W - shade_pkg::REST_W;
-  logic [SHAPE_W-1:0] shape_now;
-  shade_delay #(.WIDTH(SHAPE_W), .DEPTH(CROSS)) u_shape (
-    .clk_i, .d_i({edge_right ^ minus_q, edge_lines, edge_line, edge_column, edge_dy[W-1:0], edge_dx}), .q_o(shape_now)
-  );
-  assign shape = {shape_now, sum[shade_pkg::SUBPIXEL_F+:shade_pkg::REST_W]};
+  // ---- edges and increments -----------------------------------------------------------------------------------------
+  localparam int SHAPE_W = $bits(edge_o) - shade_pkg::REST_W;
+  logic [SHAPE_W-1:0] shape;
   logic begin_q1, begin_q2;
+  shade_delay #(.WIDTH(SHAPE_W), .DEPTH(CROSS)) u_shape (
+    .clk_i, .d_i({edge_right ^ minus_q, edge_lines, edge_line, edge_column, edge_dy[W-1:0], edge_dx}), .q_o(shape)
+  );
   always_ff @(posedge clk_i) begin
     edge_valid_o         <= edge_now && !rst_i;
-    edge_o               <= shape;
+    edge_o               <= {shape, sum[shade_pkg::SUBPIXEL_F+:shade_pkg::REST_W]};
     {begin_q2, begin_q1} <= {begin_q1, begin_now};
     if (begin_q2) r_q <= r;
   end
   shade_gradient u_gradient (
     .clk_i, .rst_i, .valid_i(pair_now), .line_i(line_now), .depth_i(depth_now), .sum_i(sum), .e_i(e_now), .r_i(r_q),
-    .valid_o(pair_valid_o), .column_o(pair_column_o), .line_o(pair_line_o)
+    .valid_o(pair_valid_o), .pair_o
   );
 
-  // ---- the head -------------------------------------------------------------------------------------------------------------------
-  logic [shade_pkg::VERTEX_HEAD_W-1:0] c_base_q;
-  logic [PIXEL_W-1:0] c_low_q, c_high_q, c_bottom_q;
+  // ---- the rest -------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
-    if (done && final_step) head_o <= {c_large_q, c_bottom_q, c_high_q, c_low_q, c_base_q};
+    if (done && final_step) head_o <= c_sized_q;
     head_valid_o <= !rst_i && ((done && final_step) || (head_valid_o && !head_ready_i));
   end
 endmodule

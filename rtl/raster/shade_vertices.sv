@@ -7,8 +7,7 @@
 //   a normal of length 0                              error_normal_o
 // is told in one clock and gives no triangle; the next packet is unharmed.
 //
-// A triangle: x_o, y_o of vertices 2, 1, 0; normal_o, depth_o, tag_o, mark_o (flat) of vertex 0; of vertices 2 and 1 the
-// differences to it: dx_o, dy_o, ddepth_o S.25, dnormal_o S1.16 (z, y, x of 2, then of 1), 0 with flat_i. box_o: the
+// A triangle: x_o, y_o of vertices 2, 1, 0; corner_o, vertex 0; of vertices 2 and 1 the differences to it: dx_o, dy_o, ddepth_o S.25, dnormal_o S1.16 (z, y, x of 2, then of 1), 0 with flat_i. box_o: the
 // least and greatest of first columns and lines at or behind a vertex, {low line, high line, low column, high column}.
 // Latency 3 clocks from the third beat; a triangle in 5 clocks. No path from ready_i to tready.
 // Example: vertices (128, 128), (2688, 128), (128, 2688): columns 0 .. 10, dx_o = {0, 2560}.
@@ -28,10 +27,7 @@ module shade_vertices (
   output logic [                       1:0][  shade_pkg::COORDINATE_W:0] dy_o,
   output logic [                       1:0][       shade_pkg::DEPTH_F:0] ddepth_o,
   output logic [                       1:0][ 3*shade_pkg::VERTEX_W+2:0] dnormal_o,
-  output logic [ 3*shade_pkg::VERTEX_W-1:0]   normal_o,
-  output logic [    shade_pkg::DEPTH_F-1:0]   depth_o,
-  output logic [      shade_pkg::TAG_W-1:0]   tag_o,
-  output logic                                mark_o,
+  output shade_pkg::corner_t                  corner_o,
   output logic [                       3:0][   shade_pkg::LINE_W-1:0] box_o,
   output logic                                error_packet_o,
   output logic                                error_range_o,
@@ -103,19 +99,17 @@ module shade_vertices (
   logic [Z_W:0] dz;
   logic [2:0][N_W:0] dn;
   logic [2:0][N_W-1:0] base;
-  assign base = normal_o;
+  assign base = corner_o.normal;
   assign dx   = {x_q[W-1], x_q} - {x_o[0][W-1], x_o[0]};
   assign dy   = {y_q[W-1], y_q} - {y_o[0][W-1], y_o[0]};
-  assign dz   = {1'b0, z_q} - {1'b0, depth_o};
+  assign dz   = {1'b0, z_q} - {1'b0, corner_o.depth};
   for (genvar i = 0; i < 3; i++) begin : g_dn
     assign dn[i] = {n_q[i][N_W-1], n_q[i]} - {base[i][N_W-1], base[i]};
   end
   always_ff @(posedge clk_i) begin
     if (move && index_q == 2'd0) begin
       {y_o[0], x_o[0]} <= {y_q, x_q};
-      normal_o         <= n_q;
-      depth_o          <= z_q;
-      {mark_o, tag_o}  <= tag_q;
+      corner_o         <= {tag_q, z_q, n_q, y_q, x_q};
     end
     for (int i = 0; i < 2; i++) begin
       if (move && index_q == 2'(i + 1)) begin

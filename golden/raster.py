@@ -107,14 +107,14 @@ def reciprocal(a: ArrayLike) -> tuple[Int, Int]:
     return np.minimum(r, (1 << k.RECIPROCAL_F) - 1), np.maximum(e, 0)
 
 
-def increment(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False) -> tuple[Int, Int]:
+def gradient(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False) -> tuple[Int, Int]:
     """(256 cross / A in the format of the component, 1 where it does not fit and is 0) (``shade_gradient``).
 
     ``cross``: v1 dy2 - v2 dy1, with the sign of A taken out; ``r``, ``e``: of ``reciprocal(A)``. The sum is shifted so
     that 19 bits remain below the result's last one, cut, multiplied by r, rounded to nearest, ties up: S2.29 of a normal,
     S1.30 of a depth. Error at most 3/4 ulp and that of r.
 
-    >>> [int(v) for v in increment(1 << 20, *reciprocal(1 << 24))]  # 256 2^20 2^-16 / 2^24 = 2^-12
+    >>> [int(v) for v in gradient(1 << 20, *reciprocal(1 << 24))]  # 256 2^20 2^-16 / 2^24 = 2^-12
     [131071, 0]
     """
     cross, r, e = integers(cross, r, e)
@@ -129,16 +129,26 @@ def increment(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False)
     return np.where(wide, 0, g), wide.astype(np.int64)
 
 
-def first_column(x: ArrayLike, y, dx, dy, line) -> Int:
+def edges(x: ArrayLike, y, dx, dy, line) -> Int:
     """The first column whose centre on a line is not left of the edge from (x, y) down by dy > 0 and across by dx.
 
     ceil((x + dx (256 line + 128 - y) / dy - 128) / 256), exact.
 
-    >>> int(first_column(128, 0, 0, 2560, 3)), int(first_column(129, 0, 0, 2560, 3))
+    >>> int(edges(128, 0, 0, 2560, 3)), int(edges(129, 0, 0, 2560, 3))
     (0, 1)
     """
     x, y, dx, dy, line = integers(x, y, dx, dy, line)
     return -((-(x - HALF) * dy - dx * (line * ONE + HALF - y)) // (ONE * dy))
+
+
+def cross(p: ArrayLike, q: ArrayLike, s: ArrayLike, t: ArrayLike, minus: ArrayLike = 0) -> Int:
+    """p q - s t, or with ``minus`` s t - p q, exact (``shade_cross``).
+
+    >>> int(cross(3, 5, 2, 4))
+    7
+    """
+    p, q, s, t, minus = integers(p, q, s, t, minus)
+    return np.where(minus == 1, s * t - p * q, p * q - s * t)
 
 
 def line_of(y: ArrayLike) -> Int:
@@ -147,8 +157,10 @@ def line_of(y: ArrayLike) -> Int:
     return (y + HALF - 1) >> k.SUBPIXEL_F
 
 
-def faults(v: Vertices) -> dict[str, NDArray[np.bool_]]:
-    """Which triangles have numbers out of range, a normal of length 0, no area; the first that holds counts."""
+def vertices(v: Vertices) -> dict[str, NDArray[np.bool_]]:
+    """Which triangles have numbers out of range, a normal of length 0, no area; the first that holds counts
+    (``shade_vertices``, and the area ``shade_setup``).
+    """
     place = 1 << k.COORDINATE_W - 1
     bound = 1 << k.VERTEX_F
     bad = np.any([np.any((c < -place) | (c >= place), axis=1) for c in (v.x, v.y)], axis=0)
@@ -162,11 +174,11 @@ def faults(v: Vertices) -> dict[str, NDArray[np.bool_]]:
 def twice_area(v: Vertices) -> Int:
     """dx1 dy2 - dx2 dy1 (T,), exact."""
     dx, dy = v.x[:, 1:] - v.x[:, :1], v.y[:, 1:] - v.y[:, :1]
-    return dx[:, 0] * dy[:, 1] - dx[:, 1] * dy[:, 0]
+    return cross(dx[:, 0], dy[:, 1], dx[:, 1], dy[:, 0])
 
 
-def gradients(v: Vertices, flat: int = 0) -> tuple[Int, Int]:
-    """Increments of normal and depth per column and line (T, 4); of both 0 where one does not fit."""
+def setup(v: Vertices, flat: int = 0) -> tuple[Int, Int]:
+    """Increments of normal and depth per column and line (T, 4); of both 0 where one does not fit (``shade_setup``)."""
     area = twice_area(v)
     sign = np.sign(area)
     r, e = reciprocal(np.abs(area))
@@ -176,14 +188,14 @@ def gradients(v: Vertices, flat: int = 0) -> tuple[Int, Int]:
         depth = c == COMPONENTS - 1
         value = v.depth if depth else v.normal[:, :, c]
         value = value[:, 1:] - value[:, :1] if depth or not flat else np.zeros_like(value[:, 1:])
-        column, wide_column = increment(sign * (value[:, 0] * dy[:, 1] - value[:, 1] * dy[:, 0]), r, e, depth)
-        line, wide_line = increment(sign * (value[:, 1] * dx[:, 0] - value[:, 0] * dx[:, 1]), r, e, depth)
+        column, wide_column = gradient(sign * cross(value[:, 0], dy[:, 1], value[:, 1], dy[:, 0]), r, e, depth)
+        line, wide_line = gradient(-sign * cross(value[:, 0], dx[:, 1], value[:, 1], dx[:, 0]), r, e, depth)
         fits = (wide_column | wide_line) == 0
         found[:, :, c] = np.where(fits, column, 0), np.where(fits, line, 0)
     return found[0], found[1]
 
 
-def at_pixel(v: Vertices, dcolumn: Int, dline: Int, column: ArrayLike, line: ArrayLike) -> Int:
+def plane(v: Vertices, dcolumn: Int, dline: Int, column: ArrayLike, line: ArrayLike) -> Int:
     """Normal and depth (T, 4) at a pixel's centre: vertex 0 and the way from there, rounded once (``shade_plane``)."""
     away_x, away_y = column * ONE + HALF - v.x[:, 0], line * ONE + HALF - v.y[:, 0]
     way = round(dcolumn * away_x[:, None] + dline * away_y[:, None], k.SUBPIXEL_F)
@@ -192,7 +204,7 @@ def at_pixel(v: Vertices, dcolumn: Int, dline: Int, column: ArrayLike, line: Arr
     return wrap(np.concatenate([normal, depth], axis=1) + way, k.STEP_W)
 
 
-def runs(v: Vertices, view: View) -> tuple[Int, Int, Int, Int]:
+def raster(v: Vertices, view: View) -> tuple[Int, Int, Int, Int]:
     """(triangle, line, column, count) of all runs, by triangle, then downwards (``shade_raster``)."""
     lines = np.stack([line_of(v.y.min(axis=1)), line_of(v.y.max(axis=1))], axis=1).clip(0, view.lines)
     t, step = walk(lines[:, 1] - lines[:, 0])
@@ -205,7 +217,7 @@ def runs(v: Vertices, view: View) -> tuple[Int, Int, Int, Int]:
         x, y = v.x[row, upper], v.y[row, upper]
         dx, dy = v.x[row, lower] - x, v.y[row, lower] - y
         crossed = (line >= line_of(y)[t]) & (line < line_of(y + dy)[t])
-        at = first_column(x[t], y[t], dx[t], np.maximum(dy[t], 1), line)
+        at = edges(x[t], y[t], dx[t], np.maximum(dy[t], 1), line)
         on_right = (twice_area(v) > 0) ^ turned  # an edge that goes down around the inside on its right hand
         left = np.where(crossed & ~on_right[t], at, left)
         right = np.where(crossed & on_right[t], at, right)
@@ -222,15 +234,15 @@ def narrow(increments: Int, size: Int) -> NDArray[np.bool_]:
 
 def scan(v: Vertices, view: View) -> Scanned:
     """Triangles to planes and runs (``shade_scan``)."""
-    bad = faults(v)
+    bad = vertices(v)
     wrong = np.any(list(bad.values()), axis=0)
     area = np.where(wrong, 1, twice_area(v))
     culled = ~wrong & np.select([view.cull == k.CULL_BACK, view.cull == k.CULL_FRONT], [area > 0, area < 0], False)
     index = np.flatnonzero(~wrong & ~culled)
     kept = take(v, index)
-    triangle, line, column, count = runs(kept, view)
+    triangle, line, column, count = raster(kept, view)
     hit, at = np.unique(triangle, return_index=True)
-    dcolumn, dline = gradients(kept, view.flat)
+    dcolumn, dline = setup(kept, view.flat)
     shown, dcolumn, dline = take(kept, hit), dcolumn[hit], dline[hit]
     low = np.maximum(line_of(shown.x.min(axis=1)), 0)
     columns = np.minimum(line_of(shown.x.max(axis=1)), view.columns) - low
@@ -238,7 +250,7 @@ def scan(v: Vertices, view: View) -> Scanned:
     box = np.stack([column[at], line[at], columns, lines, column[at] - low], axis=-1)
     return Scanned(
         index=index[hit],
-        plane=at_pixel(shown, dcolumn, dline, column[at], line[at]),
+        plane=plane(shown, dcolumn, dline, column[at], line[at]),
         dcolumn=dcolumn,
         dline=dline,
         box=box,
@@ -260,8 +272,8 @@ def take(v: Vertices, rows: ArrayLike) -> Vertices:
     return Vertices(*(getattr(v, name)[rows] for name in ("x", "y", "depth", "normal", "tag", "flat")))
 
 
-def at_runs(s: Scanned) -> Int:
-    """Normal and depth (S, 4) at the first pixel of every run."""
+def starts(s: Scanned) -> Int:
+    """Normal and depth (S, 4) at the first pixel of every run (``shade_starts``)."""
     across, down = s.column - s.box[s.triangle, 0], s.line - s.box[s.triangle, 1]
     way = s.dcolumn[s.triangle] * across[:, None] + s.dline[s.triangle] * down[:, None]
     return wrap(s.plane[s.triangle] + way, k.STEP_W)
@@ -270,18 +282,22 @@ def at_runs(s: Scanned) -> Int:
 def depths(s: Scanned) -> tuple[Int, Int, Int, Int]:
     """(run, column, line, depth U0.24) of every pixel: the plane's depth, cut, not below 0 nor above 1 - 2^-24."""
     run, step = walk(s.count)
-    value = wrap(at_runs(s)[run, 3] + s.dcolumn[s.triangle[run], 3] * step, k.STEP_W)
+    value = wrap(starts(s)[run, 3] + s.dcolumn[s.triangle[run], 3] * step, k.STEP_W)
     limit = (1 << k.DEPTH_F) - 1
     return run, s.column[run] + step, s.line[run], np.clip(value >> k.PLANE_F - k.DEPTH_F, 0, limit)
 
 
 def lines(s: Scanned) -> dict[str, Int]:
     """The runs as packets SPAN, by the names of its leaves (``shade_lines``)."""
-    start, single = at_runs(s), s.count == 1
+    start, single = starts(s), s.count == 1
     vectors = {"normal": start, "increment": np.where(single[:, None], 0, s.dcolumn[s.triangle])}
     found = {f"{name}.{axis}": v[:, i] for name, v in vectors.items() for i, axis in enumerate("xyz")}
     one = np.full(len(s.count), 1 << k.INTENSITY_F)
     return found | {"count": s.count, "tag": s.tag[s.triangle], "cosine": one, "flat": s.flat[s.triangle]}
+
+
+spans = lines
+"""Vertices to spans (``shade_spans``): the same, of what :func:`scan` found."""
 
 
 def beats(v: Vertices) -> dict[str, NDArray]:

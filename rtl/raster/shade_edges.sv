@@ -32,7 +32,6 @@ module shade_edges (
 );
   localparam int W = shade_pkg::COORDINATE_W;
   localparam int F = shade_pkg::SUBPIXEL_F;
-  localparam int L_W = shade_pkg::LINE_W;
   localparam int HALF = 1 << (F - 1);
 
   // ---- the vertices in a ring that is turned until the second one is the top; the edge goes from the first to the second

@@ -68,6 +68,8 @@ module shade_gradient (
   logic [G_W-shade_pkg::STEP_W:0] above;
   shade_mul #(.A_W(IN_W), .B_W(18)) u_mul (.clk_i, .a_i(x_q3), .b_i({1'b0, r_i}), .p_o(p_q5));
   shade_delay #(.WIDTH(1), .DEPTH(shade_pkg::LATENCY_MUL)) u_wide (.clk_i, .d_i(wide_q3), .q_o(wide_q5));
+  logic unused_low;
+  assign unused_low = ^half_up[DROP-1:0];
   assign half_up = p_q5 + (P_W'(1) << (DROP - 1));
   assign above   = half_up[P_W-1-:G_W-shade_pkg::STEP_W+1];
   always_ff @(posedge clk_i) begin

@@ -121,6 +121,8 @@ module shade_plane (
   logic [shade_pkg::TAG_W:0] tag_q;
   logic narrow_q;
   assign half_up = sum_q3 + SUM_W'(1 << (F - 1));
+  logic unused_low;
+  assign unused_low = ^{half_up[F-1:0], product_q2[S_W+17:SUM_W]};
   localparam int N_UP = shade_pkg::STEP_F - shade_pkg::VERTEX_F;
   localparam int Z_UP = shade_pkg::PLANE_F - shade_pkg::DEPTH_F;
   always_ff @(posedge clk_i) begin

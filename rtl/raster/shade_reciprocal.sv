@@ -56,19 +56,20 @@ module shade_reciprocal (
   // ---- 1/m: remainders of 2^(M_W-1) / m, two bits of the quotient a clock, one more than r has ---------------------------
   logic [M_W-1:0] rest_q, rest, rest_1, rest_2;
   logic [M_W:0] less_1, less_2;
-  logic [R_F:0] quotient_q, quotient;
+  logic [R_F-2:0] quotient_q;
+  logic [R_F:0] quotient;
   logic [3:0] left_q;
   assign rest     = load_q ? M_W'(1) << (M_W - 1) : rest_q;
   assign less_1   = {rest, 1'b0} - {1'b0, m_q4};
   assign rest_1   = less_1[M_W] ? {rest[M_W-2:0], 1'b0} : less_1[M_W-1:0];
   assign less_2   = {rest_1, 1'b0} - {1'b0, m_q4};
   assign rest_2   = less_2[M_W] ? {rest_1[M_W-2:0], 1'b0} : less_2[M_W-1:0];
-  assign quotient = {quotient_q[R_F-2:0], !less_1[M_W], !less_2[M_W]};
+  assign quotient = {quotient_q, !less_1[M_W], !less_2[M_W]};
   logic [R_F:0] rounded;
   assign rounded = {1'b0, quotient[R_F:1]} + (R_F + 1)'(quotient[0]);
   always_ff @(posedge clk_i) begin
     rest_q     <= rest_2;
-    quotient_q <= quotient;
+    quotient_q <= quotient[R_F-2:0];
     left_q     <= load_q ? 4'd8 : left_q - 4'(left_q != 4'd0);
     if (left_q == 4'd1 && !load_q) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
   end

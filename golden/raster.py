@@ -54,8 +54,10 @@ class Vertices:
 
 @dataclass(frozen=True)
 class View:
-    """The frame's columns and lines, 1 to 4096; what is culled, ``CULL_*``; ``flat``: all of a triangle has the normal of
-    vertex 0."""
+    """The frame's columns and lines, 1 to 4096; what is culled, ``CULL_*``.
+
+    ``flat``: all of a triangle has the normal of vertex 0.
+    """
 
     columns: int
     lines: int
@@ -67,9 +69,9 @@ class View:
 class Scanned:
     """What a list of triangles covers, in order; a triangle without a pixel is left out.
 
-    ``plane``, ``dcolumn``, ``dline`` (T, 4): normal S2.29 and depth S1.30, modulo 4, at the first pixel of the first run,
-    and their increments. ``box`` (T, 5): column and line of that pixel, columns and lines of a box that holds all pixels,
-    its columns on the left of that pixel. ``narrow`` (T,): the increments fit the packet, see ``golden.packets.TRIANGLE``.
+    ``plane``, ``dcolumn``, ``dline`` (T, 4): normal S2.29 and depth S1.30, modulo 4, at the first pixel of the first
+    run, and their increments. ``box`` (T, 5): column and line of that pixel, columns and lines of a box that holds all
+    pixels, its columns on the left of that pixel. ``narrow`` (T,): the increments fit, see ``golden.types.TRIANGLE``.
     """
 
     index: Int  # (T,) of the triangle among those given
@@ -111,8 +113,8 @@ def gradient(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False) 
     """(256 cross / A in the format of the component, 1 where it does not fit and is 0) (``shade_gradient``).
 
     ``cross``: v1 dy2 - v2 dy1, with the sign of A taken out; ``r``, ``e``: of ``reciprocal(A)``. The sum is shifted so
-    that 19 bits remain below the result's last one, cut, multiplied by r, rounded to nearest, ties up: S2.29 of a normal,
-    S1.30 of a depth. Error at most 3/4 ulp and that of r.
+    that 19 bits remain below the result's last one, cut, multiplied by r, rounded to nearest, ties up: S2.29 of a
+    normal, S1.30 of a depth. Error at most 3/4 ulp and that of r.
 
     >>> [int(v) for v in gradient(1 << 20, *reciprocal(1 << 24))]  # 256 2^20 2^-16 / 2^24 = 2^-12
     [131071, 0]
@@ -288,11 +290,12 @@ def depths(s: Scanned) -> tuple[Int, Int, Int, Int]:
 
 
 def lines(s: Scanned) -> dict[str, Int]:
-    """The runs as packets SPAN, by the names of its leaves (``shade_lines``)."""
+    """The runs as packets SPAN, and where they begin, by the names of the leaves (``shade_lines``)."""
     start, single = starts(s), s.count == 1
     vectors = {"normal": start, "increment": np.where(single[:, None], 0, s.dcolumn[s.triangle])}
     found = {f"{name}.{axis}": v[:, i] for name, v in vectors.items() for i, axis in enumerate("xyz")}
     one = np.full(len(s.count), 1 << k.INTENSITY_F)
+    found |= {"column": s.column, "line": s.line, "depth": start[:, 3], "increase": s.dcolumn[s.triangle, 3]}
     return found | {"count": s.count, "tag": s.tag[s.triangle], "cosine": one, "flat": s.flat[s.triangle]}
 
 

@@ -335,6 +335,16 @@ PLANE = Struct(
     "normal and depth, or what they grow by, modulo 4",
     (_part("normal", STEP), Field("depth", k.STEP_W, "", "S1.30")),
 )
+SPOT = Struct(
+    "spot_t",
+    "where a span begins: its first pixel, and depth there and per pixel, modulo 4",
+    (
+        Field("column", k.PLACE_W, ""),
+        Field("line", k.PLACE_W, ""),
+        Field("depth", k.STEP_W, "", "S1.30"),
+        Field("increase", k.STEP_W, "", "S1.30"),
+    ),
+)
 SURFACE = Struct(
     "surface_t",
     "a triangle whose runs follow on a stream of their own",
@@ -510,7 +520,7 @@ STRUCTS: dict[str, Struct] = {
     struct.name: struct
     for struct in (
         VEC, STEP, RGB, SPAN, GROWTH, TRIANGLE, RUN, OUTWARD, VERTEX, SHORT, CORNER, SIZED, EDGE, WALKED, PAIR, PLANE,
-        SURFACE, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE,
+        SURFACE, SPOT, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE,
         INTENSITY, FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW, NODE_FLAGS, ERRORS, STATUS,
     )
 }  # fmt: skip

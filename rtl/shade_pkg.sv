@@ -523,6 +523,14 @@ package shade_pkg;
     plane_t value;  // at the first pixel of the first run
   } surface_t;
 
+  // where a span begins: its first pixel, and depth there and per pixel, modulo 4
+  typedef struct packed {
+    logic signed [31:0] increase;  // S1.30
+    logic signed [31:0] depth;  // S1.30
+    logic [11:0] line;
+    logic [11:0] column;
+  } spot_t;
+
   // a record, without the light at its nodes
   typedef struct packed {
     logic [15:0] tag;  // given back with every pixel

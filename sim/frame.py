@@ -24,6 +24,7 @@ from polyshade.golden.reference.light import dot
 from polyshade.sim import core, tools
 from polyshade.sim.core import quantize
 from polyshade.sim.errors import UserError
+from polyshade.sim.scan import scan
 from polyshade.sim.scene.camera import Camera
 from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
 from polyshade.sim.scene.raster import Spans, expand, faces_viewer, resolve, scan_convert
@@ -39,7 +40,9 @@ LIGHT_UNITS = {"full": {}, "folded": {"FOLD": 6, "REFLECT": 0, "DIVIDE": 0, "PAT
 FOLDED_MODELS = ("lambert", "blinn")
 RANGES = {"threshold": (0.0, 1.0), "degree": (1, 3), "criterion": (0.0, 1.0)}
 ONE = 1 << contract.INTENSITY_F
-CHOICES = {"path": PATHS, "evaluator": EVALUATORS, "lanes": LANES, "light_unit": LIGHT_UNITS, "variant": VARIANTS}
+SCANS = ("host", "rtl")
+CHOICES = {"scan": SCANS, "path": PATHS, "evaluator": EVALUATORS, "lanes": LANES, "light_unit": LIGHT_UNITS}
+CHOICES |= {"variant": VARIANTS}
 DIFFERENCE_GAIN = 256  # an error of 1/256, one step of an 8-bit picture, is white
 BACKGROUND = np.array([0.11, 0.12, 0.14])
 
@@ -61,6 +64,7 @@ class Settings:
     threshold: float = 0.9
     degree: int = 3  # of every span in form paper
     criterion: float = 0.005  # P2's eta, up to which Lambert's light alone draws a triangle without normalizing
+    scan: str = "host"  # who converts triangles to spans: sim.scene.raster, or shade_spans
     crease: float | None = None  # these four: see Reading
     flip: bool = False
     two_sided: bool = False
@@ -77,6 +81,8 @@ class Settings:
                 raise UserError(f"--{name}: {getattr(self, name)} is out of range, allowed is {low} to {high}")
         if not 1e-6 < np.abs(self.light).max() < 1e6:  # also refuses NaN
             raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
+        if self.scan == "rtl" and self.path == "normals" and self.variant in ("V1", "V2"):
+            raise UserError(f"--scan: rtl gives no cosines, which variant {self.variant} needs, allowed is host")
         if self.light_unit == "folded" and (self.path != "poly" or self.material.model not in FOLDED_MODELS):
             raise UserError(f"--light-unit: folded is allowed with --path poly and --model {', '.join(FOLDED_MODELS)}")
 
@@ -215,7 +221,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     first of them; ``report["counter_mismatches"]`` counters and bits of STATUS that differ.
     """
     began = time.perf_counter()
-    with tqdm(total=5, desc="load", disable=None, delay=2, leave=False) as bar:
+    with tqdm(total=5 + (settings.scan == "rtl"), desc="load", disable=None, delay=2, leave=False) as bar:
 
         def stage(name: str) -> None:
             bar.update()
@@ -233,7 +239,13 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         passed = np.zeros(len(mesh.faces), bool)
         shown = np.unique(spans.triangle)
         passed[shown] = flat(screen.normals[mesh.faces[shown]], settings.criterion, FORMS[settings.form])
-        lines = core.Lines.of(spans, passed)
+        if settings.scan == "rtl":
+            stage("set up and scan in the RTL")
+            scanned = scan(screen, mesh.faces, camera.size, spans, passed)
+            lines, visible = scanned.lines, scanned.visible
+            scan_report = scanned.report
+        else:
+            lines, scan_report = core.Lines.of(spans, passed), {"coverage_mismatches": 0, "depth_mismatches": 0}
         drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
@@ -274,6 +286,8 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         "pixels": pixels,
         "visible_pixels": int((visible >= 0).sum()),
         **more,
+        "scan": settings.scan,
+        **scan_report,
         "mismatches": drawn.mismatches,
         **{name: value for name, value in found.items() if value},
         "cycles": clocks,

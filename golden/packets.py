@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from . import contract as k
-from .types import COLOURED, PIXEL, RECORD, RUN, SPAN, TRIANGLE, VEC, Field, Struct
+from .types import COLOURED, PIXEL, RECORD, RUN, SPAN, TRIANGLE, VEC, VERTEX, Field, Struct
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,11 @@ class Packet:
 PACKETS = {
     "LINE": Packet("s_axis_span of shade_core, s_axis_line of shade_pixel_normals", k.LINE_DATA_W, SPAN),
     "SPAN": Packet("s_axis_span of shade_poly_span", k.SPAN_DATA_W, RECORD),
+    "VERTEX": Packet(
+        "s_axis_vertex of shade_scan, shade_spans; three a triangle, tlast with the third", k.VERTEX_DATA_W, VERTEX
+    ),
     "TRIANGLE": Packet(
-        "s_axis_surface of shade_direct and of the patches, m_axis_surface of shade_raster, first four beats",
+        "s_axis_surface of shade_direct and of the patches, first four beats",
         k.TRIANGLE_DATA_W,
         TRIANGLE,
     ),

@@ -167,7 +167,7 @@ package shade_pkg;
   localparam int DEPTH_F = 24;  // depth of a vertex and of a pixel, U0.24 in [0, 1)
   localparam int VERTEX_F = 16;  // components of a vertex' normal, S0.16 in [-1, 1)
   localparam int VERTEX_W = 17;
-  localparam int AREA_W = 51;  // twice the area of a triangle, and the sums of two products that its increments are made of, in a sign more
+  localparam int AREA_W = 51;
   localparam int RECIPROCAL_F = 17;  // 1/m of m in [1, 2), U0.17 below 1
   localparam int RECIPROCAL_M_W = 20;  // bits of m that are looked at, U1.19
   localparam int PLANE_F = 30;  // depth and its increments, S1.30, modulo 4

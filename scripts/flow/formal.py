@@ -132,7 +132,9 @@ def graph(proof: Proof, folder: Path, files: list[Path]) -> list[str]:
         write_aiger -B -I -zinit -ywmap proof.json proof.aig
     """
     tools.yosys(script, folder)
-    return [name.lstrip("\\") for (name,) in json.loads((folder / "proof.json").read_text())["asserts"]]
+    # the name of a label, or of the instance of shade_assert in which an assertion stands
+    asserts = json.loads((folder / "proof.json").read_text())["asserts"]
+    return [re.sub(r"\$flatten|u_dut\.|\.?\$assert.*", "", ".".join(path).replace("\\", "")) for path in asserts]
 
 
 def feedback(module: str, folder: Path) -> bool:
@@ -245,8 +247,9 @@ def killed(proof: Proof, name: str) -> bool:
     folder = WORK / re.sub(r"\W+", "_", f"{proof.title} {name}")
     shutil.rmtree(folder, ignore_errors=True)
     names = graph(proof, folder, mutated(proof, name, folder / "rtl"))
-    depth = proof.window or 24
-    return bounded(proof, folder, names, "bmc", depth, "bounded")[name][2] == "failed"
+    depth = 1 + (proof.window or 24)
+    log = abc(f"cone -O {names.index(name)}; scleanup; bmc3 -F {depth} -T {proof.seconds}", folder, proof.seconds)
+    return "was asserted in frame" in log
 
 
 def main(names: list[str], quick: bool = False) -> int:

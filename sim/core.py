@@ -18,7 +18,7 @@ from polyshade.golden import core as golden
 from polyshade.golden import registers
 from polyshade.golden.normal import pack_lines
 from polyshade.golden.reference.light import dot, unit
-from polyshade.sim.scene.raster import Spans
+from polyshade.sim.scene.raster import Spans, portions
 
 Ints = NDArray[np.int64]
 TAGS = 1 << k.TAG_W
@@ -57,6 +57,10 @@ class Lines:
         flat = flat[spans.triangle] if flat.ndim else np.full(len(spans), flat)
         return cls(n, g, spans.count.astype(np.int64), cosine, np.arange(len(spans)) % TAGS, flat)
 
+    def __getitem__(self, part: slice) -> Lines:
+        """Some of them."""
+        return Lines(**{name: values[part] for name, values in vars(self).items()})
+
     @property
     def beats(self) -> NDArray[np.uint32]:
         """(S, 8): ``s_axis_span_tdata``."""
@@ -73,8 +77,9 @@ def quantize(value: ArrayLike) -> Ints:
 class Compared:
     """What the core made of spans. ``pixels`` (P, 2) U0.16: in the order of the spans, 0 where none came."""
 
-    pixels: Ints
-    golden: golden.Drawn
+    pixels: NDArray[np.uint16]
+    evaluations: int  # of light
+    records: int
     clocks: int  # from the first span to the last pixel
     seconds: float  # of simulation
     counters: dict[str, int]
@@ -83,19 +88,44 @@ class Compared:
     first_mismatch: dict = field(default_factory=dict)
     counter_mismatches: dict[str, str] = field(default_factory=dict)  # by name: "expected 1 actual 2"
 
+    def __add__(self, later: Compared) -> Compared:
+        """Of both together, one after the other."""
+        first = self.first_mismatch
+        if not first and (first := later.first_mismatch):
+            at = {"pixel": len(self.pixels), "span": self.counters["spans"]}
+            first = {name: value + at.get(name, 0) if value != -1 else value for name, value in first.items()}
+        return Compared(
+            np.concatenate([self.pixels, later.pixels]), self.evaluations + later.evaluations,
+            self.records + later.records, self.clocks + later.clocks, self.seconds + later.seconds,
+            {name: count + later.counters[name] for name, count in self.counters.items()},
+            [*self.status, *(name for name in later.status if name not in self.status)],
+            self.mismatches + later.mismatches, first, self.counter_mismatches | later.counter_mismatches,
+        )  # fmt: skip
+
 
 def draw(
     lines: Lines, words: Mapping[str, int], stage: Callable[[str], None] = lambda name: None, **parameters: int
 ) -> Compared:
-    """Draw spans by ``shade_core`` at a parameter point, settings by the names of ``golden.registers``; compare."""
+    """Draw spans by ``shade_core`` at a parameter point, settings by the names of ``golden.registers``; compare.
+
+    Of more pixels than a `portions` the core starts anew for every portion, so that their number needs no memory.
+    """
     model = sim.load("shade_core", **parameters)
     stage("simulate")
+    parts = [part for part, _ in portions(lines.count)] or [slice(0)]
+    made = _draw(model, lines[parts[0]], words, parameters)
+    for part in parts[1:]:
+        made += _draw(model, lines[part], words, parameters)
+    stage("compare")
+    return made
+
+
+def _draw(model: sim.Model, lines: Lines, words: Mapping[str, int], parameters: Mapping[str, int]) -> Compared:
     beats, writes = lines.beats, registers.pack(words)
     began = time.perf_counter()
     reads = [OFFSETS[name] for name in ("STATUS", *COUNTERS)]
     run = model.run(s_axis_span_tdata=beats, **WHOLE, writes=writes, reads=reads)
     seconds = time.perf_counter() - began
-    stage("compare")
     built = {name.lower(): value for name, value in parameters.items() if name not in ("LANES", "FOLD")}
     wanted = golden.lane(lines.n, lines.g, lines.count, words, flat=lines.flat, cosine=lines.cosine, **built)
     pixels, mismatches, first = compare(run.outputs, lines, beats, wanted, parameters["LANES"])
@@ -105,8 +135,8 @@ def draw(
     bits = registers.unpack(OFFSETS["STATUS"], run.registers[OFFSETS["STATUS"]])
     clocks = int(run.given[-1] - run.taken[0] + 1) if len(run.given) else 0
     return Compared(
-        pixels, wanted, clocks, seconds, counters, [name for name, bit in bits.items() if bit], mismatches, first,
-        compare_counters(counters, bits, wanted),
+        pixels, len(wanted.flags), wanted.records, clocks, seconds, counters,
+        [name for name, bit in bits.items() if bit], mismatches, first, compare_counters(counters, bits, wanted),
     )  # fmt: skip
 
 
@@ -140,7 +170,7 @@ def compare(
             "actual": f"{came:#x}" if came >= 0 else "none",
         }
     data, mask = actual.clip(0), (1 << k.PIXEL_W) - 1
-    return np.stack([data & mask, data >> k.PIXEL_W & mask], axis=-1), mismatches, first
+    return np.stack([data & mask, data >> k.PIXEL_W & mask], axis=-1).astype(np.uint16), mismatches, first
 
 
 def streams(outputs: Mapping[str, Ints], lanes: int) -> list[Ints]:

@@ -11,6 +11,7 @@ import json
 import os
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -27,7 +28,7 @@ from polyshade.sim.errors import UserError
 from polyshade.sim.scan import scan
 from polyshade.sim.scene.camera import Camera
 from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
-from polyshade.sim.scene.raster import Spans, expand, faces_viewer, resolve, scan_convert
+from polyshade.sim.scene.raster import Spans, expand, faces_viewer, portions, resolve, scan_convert
 from tqdm import tqdm
 
 PATHS = {"poly": contract.PATH_POLY, "normals": contract.PATH_NORMALS}
@@ -44,6 +45,7 @@ SCANS = ("host", "rtl")
 CHOICES = {"scan": SCANS, "path": PATHS, "evaluator": EVALUATORS, "lanes": LANES, "light_unit": LIGHT_UNITS}
 CHOICES |= {"variant": VARIANTS}
 DIFFERENCE_GAIN = 256  # an error of 1/256, one step of an 8-bit picture, is white
+BLOCK = 1 << 20  # pixels at a time: what is computed of them stays small beside the frame
 BACKGROUND = np.array([0.11, 0.12, 0.14])
 
 
@@ -132,19 +134,30 @@ class Frame:
     def picture(self, intensity: NDArray[np.float64]) -> Image.Image:
         """The intensities as a picture: ambient, diffuse and specular light in the material's colours."""
         surface = self.settings.material
-        diffuse, specular = np.moveaxis(intensity, -1, 0)[..., None]
-        matt = (surface.ambient + surface.diffuse * diffuse) * surface.colour
-        return self._image(matt + surface.specular * specular * surface.highlight, BACKGROUND)
+
+        def colour(some: slice) -> NDArray[np.float64]:
+            diffuse, specular = np.moveaxis(intensity[some], -1, 0)[..., None]
+            matt = (surface.ambient + surface.diffuse * diffuse) * surface.colour
+            return matt + surface.specular * specular * surface.highlight
+
+        return self._image(colour, BACKGROUND)
 
     def difference(self) -> Image.Image:
         """|RTL - float64| times DIFFERENCE_GAIN: diffuse in green, specular in red."""
-        error = np.abs(self.intensity - self.exact)
-        return self._image(DIFFERENCE_GAIN * np.insert(error[:, ::-1], 2, 0, axis=-1), np.zeros(3))
 
-    def _image(self, colour: NDArray[np.float64], background: NDArray[np.float64]) -> Image.Image:
-        """The visible ones of pixels' colours (P, 3)."""
+        def colour(some: slice) -> NDArray[np.float64]:
+            error = np.abs(self.intensity[some] - self.exact[some])
+            return DIFFERENCE_GAIN * np.insert(error[:, ::-1], 2, 0, axis=-1)
+
+        return self._image(colour, np.zeros(3))
+
+    def _image(self, colour: Callable[[slice], NDArray[np.float64]], background: NDArray[np.float64]) -> Image.Image:
+        """The visible ones of the pixels' colours, which ``colour`` gives for some of them: (pixels, 3)."""
         size = self.settings.camera.size
-        levels = np.rint(255 * np.concatenate([colour, [background]]).clip(0, 1)).astype(np.uint8)
+        levels = np.empty((len(self.intensity) + 1, 3), np.uint8)
+        for at in range(0, len(self.intensity), BLOCK):
+            levels[at : at + BLOCK][: len(self.intensity) - at] = _levels(colour(slice(at, at + BLOCK)))
+        levels[-1] = _levels(background)
         return Image.fromarray(levels[self.visible].reshape(size, size, 3))  # -1 is the last
 
     def save(self, folder: Path) -> None:
@@ -155,6 +168,11 @@ class Frame:
             "difference.png": self.difference(),
         }
         save(folder, pictures, self.report)
+
+
+def _levels(colour: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Of 8 bits."""
+    return np.rint(255 * colour.clip(0, 1)).astype(np.uint8)
 
 
 PICTURES = ["image.png", "reference.png", "difference.png"]
@@ -200,6 +218,15 @@ def normals(spans: Spans, size: int) -> NDArray[np.float64]:
     """(P, 3): the interpolated normal of every pixel, in stream order."""
     every = expand(spans, size)
     return spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
+
+
+def reference(spans: Spans, size: int, surface: Material, light: tuple[float, float, float], **how) -> np.ndarray:
+    """(P, 2): diffuse and specular light in float64 of every pixel, in stream order."""
+    made = np.empty((spans.pixels, 2))
+    for part, first in portions(spans.count):
+        some = surface.channels(normals(spans[part], size), light, **how)
+        np.clip(some, 0, 1, out=made[first : first + len(some)])
+    return made
 
 
 def flat(corners: NDArray[np.float64], threshold: float, form: int) -> NDArray[np.bool_]:
@@ -249,17 +276,16 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
-        normal = normals(spans, camera.size)
-        exact = surface.channels(normal, settings.light).clip(0, 1)
+        exact = reference(spans, camera.size, surface, settings.light)
         told = errors(intensity, exact, visible)
         if settings.form == "paper":
-            lobe = surface.channels(normal, settings.light, fitted=True).clip(0, 1)
+            lobe = reference(spans, camera.size, surface, settings.light, fitted=True)
             told |= {f"{name}_paper_lobe": errors(intensity, lobe, visible)[name] for name in ("nmse", "nmse_specular")}
 
-    pixels, clocks, evaluations = spans.pixels, drawn.clocks, len(drawn.golden.flags)
+    pixels, clocks, evaluations = spans.pixels, drawn.clocks, drawn.evaluations
     if settings.path == "poly":
         degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
-        more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.golden.records}
+        more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.records}
         more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
     else:
         more = {"variant": settings.variant, "threshold": settings.threshold}
@@ -312,16 +338,21 @@ def _plain(value: float | str | tuple[float, ...]) -> float | str:
 def errors(intensity, exact, visible) -> dict[str, float | None]:
     """NMSE = sum (I - Iref)^2 / sum Iref^2 over the visible pixels, of both channels and of each; PSNR for peak 1."""
     seen = visible[visible >= 0]
-    error, signal = (intensity - exact)[seen] ** 2, exact[seen] ** 2
+    error, signal, worst = np.zeros(2), np.zeros(2), 0.0
+    for at in range(0, len(seen), BLOCK):
+        some = seen[at : at + BLOCK]
+        square = (intensity[some] - exact[some]) ** 2
+        error, worst = error + square.sum(axis=0), max(worst, square.max())
+        signal += (exact[some] ** 2).sum(axis=0)
 
     def ratio(numerator: float, denominator: float) -> float | None:
         return float(numerator / denominator) if denominator else None
 
-    mean = error.mean() if len(seen) else 0
+    mean = error.sum() / (2 * len(seen)) if len(seen) else 0
     return {
         "nmse": ratio(error.sum(), signal.sum()),
-        "nmse_diffuse": ratio(error[:, 0].sum(), signal[:, 0].sum()),
-        "nmse_specular": ratio(error[:, 1].sum(), signal[:, 1].sum()),
+        "nmse_diffuse": ratio(error[0], signal[0]),
+        "nmse_specular": ratio(error[1], signal[1]),
         "psnr_db": float(-10 * np.log10(mean)) if mean else None,
-        "max_error": float(np.sqrt(error.max())) if len(seen) else 0.0,
+        "max_error": float(np.sqrt(worst)),
     }

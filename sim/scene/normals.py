@@ -18,6 +18,9 @@ BLOCK = 1 << 17
 ROUND = 180.0
 """Degrees of an edge: none is hard."""
 
+MIX = np.uint64(0x9E3779B97F4A7C15)
+"""An odd number whose bits look random: 2**64 divided by the golden ratio."""
+
 SHORT = 1e-12
 """Length of a sum of unit vectors below which they cancel each other."""
 
@@ -167,7 +170,7 @@ def joined(points: Floats) -> tuple[Floats, Ints]:
     bits = (points + 0.0).view(np.uint64)  # + 0.0: -0 and 0 are one place
     key = np.zeros(len(points), np.uint64)
     for column in bits.T:  # a mixing of 192 bits into 64
-        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        key = (key ^ column) * MIX
         key ^= key >> np.uint64(29)
     order = np.argsort(key, kind="stable")
     new = np.append(True, np.diff(key[order]) != 0)

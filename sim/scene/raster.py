@@ -57,6 +57,10 @@ class Spans:
     def __len__(self) -> int:
         return len(self.count)
 
+    def __getitem__(self, part: slice) -> Spans:
+        """Some of the spans."""
+        return Spans(**{name: values[part] for name, values in vars(self).items()})
+
     @property
     def pixels(self) -> int:
         """Sum of all counts."""
@@ -167,6 +171,23 @@ def _scan_convert(screen: Screen, places: Ints, faces: NDArray[np.int32], size: 
     )
 
 
+def portions(count: Ints, most: int = 1 << 20) -> list[tuple[slice, int]]:
+    """Spans in portions of so many pixels, or of one span: their slices, and the stream index of their first pixel.
+
+    What is computed of every pixel takes little room beside the frame then.
+
+    >>> portions(np.array([3, 3, 3, 9, 1]), 6)
+    [(slice(0, 2, None), 0), (slice(2, 3, None), 6), (slice(3, 4, None), 9), (slice(4, 5, None), 18)]
+    """
+    ends = np.cumsum(count)
+    made, at, done = [], 0, 0
+    while at < len(count):
+        stop = max(int(np.searchsorted(ends, done + most, side="right")), at + 1)
+        made.append((slice(at, stop), done))
+        at, done = stop, int(ends[stop - 1])
+    return made
+
+
 def expand(spans: Spans, size: int) -> Pixels:
     """Every pixel of the spans, in stream order."""
     span, step = walk(spans.count)
@@ -179,11 +200,20 @@ def resolve(spans: Spans, size: int) -> Ints:
 
     The smallest depth wins; of equal depths the earlier in the stream, that is, the earlier triangle.
     """
-    pixels = expand(spans, size)
-    depth = spans.depth[pixels.span] + pixels.step * spans.depth_gradient[pixels.span]
     nearest = np.full(size * size, np.inf)
-    np.minimum.at(nearest, pixels.place, depth)
-    seen = np.flatnonzero(depth == nearest[pixels.place])[::-1]
+    parts = portions(spans.count)
+    for part, _ in parts:
+        place, depth = _depths(spans[part], size)
+        np.minimum.at(nearest, place, depth)
     visible = np.full(size * size, -1, dtype=np.int64)
-    visible[pixels.place[seen]] = seen  # of repeated places NumPy keeps the last: the earliest, since reversed
+    for part, first in reversed(parts):
+        place, depth = _depths(spans[part], size)
+        seen = np.flatnonzero(depth == nearest[place])[::-1]
+        visible[place[seen]] = first + seen  # of repeated places NumPy keeps the last: the earliest, since reversed
     return visible
+
+
+def _depths(spans: Spans, size: int) -> tuple[Ints, Floats]:
+    """Place and depth of every pixel."""
+    pixels = expand(spans, size)
+    return pixels.place, spans.depth[pixels.span] + pixels.step * spans.depth_gradient[pixels.span]

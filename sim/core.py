@@ -90,16 +90,13 @@ class Compared:
 
     def __add__(self, later: Compared) -> Compared:
         """Of both together, one after the other."""
-        first = self.first_mismatch
-        if not first and (first := later.first_mismatch):
-            at = {"pixel": len(self.pixels), "span": self.counters["spans"]}
-            first = {name: value + at.get(name, 0) if value != -1 else value for name, value in first.items()}
         return Compared(
             np.concatenate([self.pixels, later.pixels]), self.evaluations + later.evaluations,
             self.records + later.records, self.clocks + later.clocks, self.seconds + later.seconds,
             {name: count + later.counters[name] for name, count in self.counters.items()},
             [*self.status, *(name for name in later.status if name not in self.status)],
-            self.mismatches + later.mismatches, first, self.counter_mismatches | later.counter_mismatches,
+            self.mismatches + later.mismatches, self.first_mismatch or later.first_mismatch,
+            self.counter_mismatches | later.counter_mismatches,
         )  # fmt: skip
 
 
@@ -112,10 +109,13 @@ def draw(
     """
     model = sim.load("shade_core", **parameters)
     stage("simulate")
-    parts = [part for part, _ in portions(lines.count)] or [slice(0)]
-    made = _draw(model, lines[parts[0]], words, parameters)
-    for part in parts[1:]:
-        made += _draw(model, lines[part], words, parameters)
+    made = None
+    for part, pixel in portions(lines.count) or [(slice(0, 0), 0)]:
+        more = _draw(model, lines[part], words, parameters)
+        if first := more.first_mismatch:
+            first["pixel"] += pixel
+            first["span"] += part.start * (first["span"] >= 0)
+        made = made + more if made else more
     stage("compare")
     return made
 

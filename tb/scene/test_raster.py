@@ -5,9 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from polyshade.sim.scene import raster
 from polyshade.sim.scene.camera import Camera, Screen
 from polyshade.sim.scene.mesh import load_mesh
-from polyshade.sim.scene.raster import REACH, SUBPIXELS, Spans, expand, resolve, scan_convert, snap
+from polyshade.sim.scene.raster import REACH, SUBPIXELS, Spans, expand, portions, resolve, scan_convert, snap
 
 
 def screen(xy: object, depth: object = None, normals: object = None) -> Screen:
@@ -243,6 +244,24 @@ def test_nearest_wins_and_ties_go_to_the_earlier() -> None:
     assert np.array_equal(pixels.place[seen], np.flatnonzero(visible >= 0))
     equal = scan_convert(screen(quad * 3, depth=[1] * 12), stack, 6)
     assert set(equal.triangle[expand(equal, 6).span[resolve(equal, 6)[visible >= 0]]].tolist()) == {0, 1}
+
+
+def test_portions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every span once, in order, of at most so many pixels or one span; a frame in portions is the same."""
+    count = np.array([3, 3, 3, 9, 1])
+    assert [(part.start, part.stop, first) for part, first in portions(count, 6)] == [
+        (0, 2, 0), (2, 3, 6), (3, 4, 9), (4, 5, 18),
+    ]  # fmt: skip
+    assert portions(count[:0], 6) == []
+    quad = [(0, 0), (16, 0), (16, 16), (0, 16)]
+    faces = np.array([(0, 3, 1), (1, 3, 2)])
+    spans = scan_convert(screen(quad * 2, depth=[0, 16, 16, 0, 16, 0, 0, 16]), np.concatenate([faces, faces + 4]), 16)
+    whole = resolve(spans, 16)
+    monkeypatch.setattr(raster, "portions", lambda count: portions(count, 7))
+    assert np.array_equal(resolve(spans, 16), whole)
+    monkeypatch.setattr(raster, "BLOCK", 1)
+    parts = scan_convert(screen(quad * 2, depth=[0, 16, 16, 0, 16, 0, 0, 16]), np.concatenate([faces, faces + 4]), 16)
+    assert all(np.array_equal(values, vars(spans)[name]) for name, values in vars(parts).items())
 
 
 def test_planes_that_cross() -> None:

@@ -10,7 +10,7 @@ from polyshade.golden import contract as k
 from polyshade.golden import core as golden
 from polyshade.golden.material import Material, planner_registers, registers
 from polyshade.sim import core
-from polyshade.sim.scene.raster import Spans
+from polyshade.sim.scene.raster import Spans, portions
 
 ONE = 1 << k.INTENSITY_F
 
@@ -85,6 +85,32 @@ def test_the_core_itself(drawn: SimpleNamespace, lanes: int) -> None:
     counted = {name: made.counters[name] for name in ("pixels", "spans", "evaluations", "errors")}
     assert counted == {"pixels": 8, "spans": 3, "evaluations": len(drawn.wanted.flags), "errors": 0}
     assert made.clocks >= made.counters["clocks"] > 8 / lanes
+
+
+def test_portions(drawn: SimpleNamespace, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A frame in portions of at most 4 pixels: sums as of a whole; a wrong pixel is found where the frame has it."""
+    point = {"LANES": 1, "EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED}
+    whole = core.draw(drawn.lines, drawn.words, **point)
+    monkeypatch.setattr(core, "portions", lambda count: portions(count, 4))
+    assert [part for part, _ in core.portions(drawn.lines.count)] == [slice(0, 2), slice(2, 3)]
+    parts = core.draw(drawn.lines, drawn.words, **point)
+    assert np.array_equal(parts.pixels, whole.pixels)
+    for name in ("evaluations", "records", "status", "mismatches", "first_mismatch", "counter_mismatches"):
+        assert getattr(parts, name) == getattr(whole, name), name
+    assert {**parts.counters, "clocks": 0} == {**whole.counters, "clocks": 0}
+    assert 0 < parts.clocks - whole.clocks < 2 * whole.clocks
+
+    true = golden.lane
+
+    def wrong(*arguments, **options) -> golden.Drawn:
+        made = true(*arguments, **options)
+        made.pixels[-1, 0] ^= len(made.pixels) == len(drawn.wanted.pixels[4:]) and made.span[-1] == 0
+        return made
+
+    monkeypatch.setattr(golden, "lane", wrong)
+    parts = core.draw(drawn.lines, drawn.words, **point)
+    assert parts.mismatches == 1
+    assert (parts.first_mismatch["pixel"], parts.first_mismatch["span"]) == (7, 2)
 
 
 @pytest.mark.parametrize("at", range(8))

@@ -182,6 +182,42 @@ NORMAL_DATA_W = 64  # x, y, z, S1.16, at bit 0, 18, 36
 PIXEL_DATA_W = CHANNELS * PIXEL_W  # diffuse in the low half, specular in the high half
 COLOUR_DATA_W = 3 * PIXEL_W  # red in the low third, then green, blue
 
+# ---- patches ---------------------------------------------------------------------------------------------------
+PATCH_LOG2_MIN = 2  # boxes of 4 .. 16 pixels a side
+PATCH_LOG2_MAX = 4
+PATCH_SMALL = 6  # a box of 4 x 4 with no more pixels is lit pixel by pixel
+PATCH_PLAN_F = 18  # fraction bits of the planner of patches
+PATCH_RADIUS = 1 << 15  # U0.16: the longest way of the normal from the middle of a box to its corner, 1/2
+PATCH_REACH_W = 19  # U3.16
+PATCH_WAY_W = 21  # U3.18: the way of a normal, a column or a line further
+PATCH_FAR_W = 26  # S7.18
+PATCH_CORNER_W = 22  # S3.18: the normal in the corner of a triangle's box
+PATCH_STEP_F = 28  # S3.28: the normal from box to box
+PATCH_STEP_W = 32
+PATCH_DOT_F = 22  # N.L, N.H, N.N at nodes, S4.22
+PATCH_DOT_W = 27
+PATCH_RHO_F = 17  # 1/sqrt(N.N) - 1 for diffuse light, S0.17
+PATCH_TABLE_LOG2 = 9  # chords of the lobe
+PATCH_VALUE_F = 6  # more fraction bits of a polynomial: all its terms are whole numbers of them
+PATCH_VALUE_W = 28  # S5.22: for nodes in [-1, 1] or [0, 2) no value between them is out of range
+PATCH_FIFO_LOG2 = 9  # the depth of a block RAM
+PATCH_SPARE = 16  # words that shade_patch_tokens keeps free for what is on its way
+PATCH_LIGHT_RANGE = 0  # bits of the flags of patches: a normal or an increment that does not fit S1.16
+PATCH_LIGHT_SHORT = 1  # a normal shorter than 1/2
+PATCH_LIGHT_LONG = 2  # one of a length of 2 or more
+PATCH_FLAGS_W = 3
+PATCH_AT_W = 10  # a row, a column of boxes
+PATCH_RUN_W = 2 + PLACE_W + PLACE_W + COUNT_W  # between the parts of shade_patch, see there
+PATCH_PLAN_W = 7
+PATCH_TRIANGLE_W = 6 * INTENSITY_W + 2 * TRIANGLE_EXP_W + 2 * PLACE_W + TAG_W
+PATCH_TOKEN_W = 9
+PATCH_BOX_W = 2 + 4 + 16 + 2 * PATCH_AT_W
+PATCH_PLACE_W = 2 + 4 + 16 + 2 * PLACE_W + TAG_W + 6
+PATCH_META_W = 1 + 4 + 6 + 2 * PLACE_W + TAG_W
+PATCH_AREA_W = 4 + 2 * PLACE_W + TAG_W
+PATCH_PIECE_W = 6 * PATCH_VALUE_W + PATCH_AREA_W
+PATCH_USER_W = 2 * PLACE_W + TAG_W  # tuser of shade_patch
+
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
 LATENCY_MUL = 2  # operands, product; of wide operands partial products, their sum
 LATENCY_MUL_IN = LATENCY_MUL + 1  # STAGES = 3: the operands in front of them
@@ -249,6 +285,12 @@ LATENCY_LANE_FOLDED = (  # parts with FOLD = 6 take what comes in every sixth cl
 )
 LATENCY_CORE = 1 + LATENCY_LANE  # the door
 LATENCY_PAINT = LATENCY_COLOUR + LATENCY_FIFO
+LATENCY_PATCH_NORM = 3  # absolute values, their sum and largest, half of both
+LATENCY_PATCH_NODES = 4  # the choice of a node, three sums
+LATENCY_PATCH_LIGHT = (
+    1 + LATENCY_RSQRT + 2 + LATENCY_MUL + 4 + 2 + LATENCY_MUL + 1
+)  # 1/root, rho, x, the table, a chord
+LATENCY_PATCH_LINES = 4  # two bits of X each
 LATENCY_PHONG = 1 + LATENCY_INCREMENT + LATENCY_NORMALIZE + LATENCY_LIGHT + 1 + LATENCY_FIFO  # span, ..., clamp, FIFO
 
 # ---- products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric ------------

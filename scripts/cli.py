@@ -95,14 +95,18 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 @click.option("--scan", default="host", help="host: spans by NumPy; rtl: set-up and scan conversion in the RTL.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
 @click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
-@click.option("--path", default="poly", help="poly: a polynomial along each span; normals: a unit normal every pixel.")
+@click.option(
+    "--path",
+    default="poly",
+    help="poly: a polynomial along each span; normals: a unit normal every pixel; patch: one in boxes of triangles.",
+)
 @click.option(
     "--evaluator", default="fdiff", help="Of path poly: fdiff, forward differences; horner, a multiplier a step."
 )
 @click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
 @click.option("--threshold", default=0.9, help="Of path normals: length below which V1, V2, V4, V5 normalize, 0 to 1.")
 @click.option("--criterion", default=0.005, help="Of lambert: eta of triangles drawn without normalizing, 0 to 1.")
-@click.option("--lanes", default=1, help="Parallel lanes of the core: 1, 2 or 4.")
+@click.option("--lanes", default=1, help="Parallel lanes: 1, 2 or 4, of path patch also 8.")
 @click.option(
     "--light-unit", default="full", help="full: a node a clock; folded: six clocks a node, fewer multipliers."
 )

@@ -22,23 +22,26 @@ from polyshade.golden import contract
 from polyshade.golden.material import FORMS, Material, planner_registers, registers
 from polyshade.golden.plan import criterion
 from polyshade.golden.reference.light import dot
-from polyshade.sim import core, tools
+from polyshade.sim import core, patch, tools
 from polyshade.sim.core import quantize
 from polyshade.sim.errors import UserError
 from polyshade.sim.scan import scan
 from polyshade.sim.scene.camera import Camera
 from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
 from polyshade.sim.scene.raster import Spans, expand, faces_viewer, portions, resolve, scan_convert
+from polyshade.sim.scene.triangles import Triangles
 from tqdm import tqdm
 
-PATHS = {"poly": contract.PATH_POLY, "normals": contract.PATH_NORMALS}
+PATHS = {"poly": contract.PATH_POLY, "normals": contract.PATH_NORMALS, "patch": None}  # None: no path of the core
 EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
 VARIANTS = {name.removeprefix("VARIANT_"): code for name, code in contract.constants().items() if "VARIANT_V" in name}
 VARIANTS |= {"refined": contract.VARIANT_REFINED, "exact": contract.VARIANT_EXACT}
-LANES = (1, 2, 4)
+LANES = (1, 2, 4, 8)
+CORE_LANES = (1, 2, 4)
 # parameters of the core; a folded one has the models FOLDED_MODELS alone
 LIGHT_UNITS = {"full": {}, "folded": {"FOLD": 6, "REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}}
 FOLDED_MODELS = ("lambert", "blinn")
+PATCH_MODELS = ("lambert", "blinn")
 RANGES = {"threshold": (0.0, 1.0), "degree": (1, 3), "criterion": (0.0, 1.0)}
 ONE = 1 << contract.INTENSITY_F
 SCANS = ("host", "rtl")
@@ -85,6 +88,16 @@ class Settings:
             raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
         if self.scan == "rtl" and self.path == "normals" and self.variant in ("V1", "V2"):
             raise UserError(f"--scan: rtl gives no cosines, which variant {self.variant} needs, allowed is host")
+        if self.scan == "rtl" and self.path == "patch":
+            raise UserError("--scan: rtl is allowed with --path poly, normals")
+        if self.path == "patch" and self.material.model not in PATCH_MODELS:
+            raise UserError(f"--path: patch is allowed with --model {', '.join(PATCH_MODELS)}")
+        if self.path == "patch" and self.form != "refined":
+            raise UserError("--path: patch is allowed with --form refined")
+        if self.path != "patch" and self.lanes not in CORE_LANES:
+            raise UserError(
+                f"--lanes: {self.lanes} is allowed with --path patch, else {', '.join(map(str, CORE_LANES))}"
+            )
         if self.light_unit == "folded" and (self.path != "poly" or self.material.model not in FOLDED_MODELS):
             raise UserError(f"--light-unit: folded is allowed with --path poly and --model {', '.join(FOLDED_MODELS)}")
 
@@ -266,14 +279,18 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         passed = np.zeros(len(mesh.faces), bool)
         shown = np.unique(spans.triangle)
         passed[shown] = flat(screen.normals[mesh.faces[shown]], settings.criterion, FORMS[settings.form])
-        if settings.scan == "rtl":
-            stage("set up and scan in the RTL")
-            scanned = scan(screen, mesh.faces, camera.size, spans, passed)
-            lines, visible = scanned.lines, scanned.visible
-            scan_report = scanned.report
+        if settings.path == "patch":
+            scan_report = {"coverage_mismatches": 0, "depth_mismatches": 0}
+            drawn = patch.draw(Triangles.of(spans, passed), surface, settings.light, stage, settings.lanes)
         else:
-            lines, scan_report = core.Lines.of(spans, passed), {"coverage_mismatches": 0, "depth_mismatches": 0}
-        drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
+            if settings.scan == "rtl":
+                stage("set up and scan in the RTL")
+                scanned = scan(screen, mesh.faces, camera.size, spans, passed)
+                lines, visible = scanned.lines, scanned.visible
+                scan_report = scanned.report
+            else:
+                lines, scan_report = core.Lines.of(spans, passed), {"coverage_mismatches": 0, "depth_mismatches": 0}
+            drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
         exact = reference(spans, camera.size, surface, settings.light)
@@ -287,6 +304,8 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
         more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.records}
         more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
+    elif settings.path == "patch":
+        more = {"boxes": drawn.golden.boxes, "direct_boxes": drawn.golden.direct}
     else:
         more = {"variant": settings.variant, "threshold": settings.threshold}
     found = {"first_mismatch": drawn.first_mismatch, "counter_mismatches": drawn.counter_mismatches}

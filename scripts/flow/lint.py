@@ -41,6 +41,8 @@ RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
 # They hand data on unaltered: there is nothing to model.
 CARRIERS = {"shade_delay", "shade_hold", "shade_valid", "shade_fifo"}
+# Machines of many parts, shade_patch_<part>, with one golden model, golden/patch.py, and one bench, that of the whole.
+MACHINES = ("shade_patch",)
 
 
 @dataclass(frozen=True)
@@ -95,14 +97,17 @@ def mirror(module: str, path: Path) -> list[str]:
         if not re.search(word, header, re.IGNORECASE):
             faults.append(f"{_short(path)}: no '{word}' in its header")
 
-    bench = ROOT / "tb" / path.parent.name / f"test_{module.removeprefix('shade_')}.py"
+    whole = next((machine for machine in MACHINES if module.startswith(machine)), module)
+    bench = ROOT / "tb" / path.parent.name / f"test_{whole.removeprefix('shade_')}.py"
     if not bench.exists() and module not in tested():
         faults.append(f"{module}: no case in sim/units, and no bench {_short(bench)}")
 
     link = f"[`{module}`]({path.relative_to(RTL)})"
     if link not in (CATALOGUE.read_text() if CATALOGUE.exists() else ""):
         faults.append(f"{_short(CATALOGUE)}: no row '| {link} | ...'")
-    return faults if module in CARRIERS else faults + _twin(path)
+    if whole in MACHINES and not (ROOT / "golden" / f"{whole.removeprefix('shade_')}.py").exists():
+        faults.append(f"golden/{whole.removeprefix('shade_')}.py: missing, the golden model of {whole}")
+    return faults if module in CARRIERS or whole in MACHINES else faults + _twin(path)
 
 
 @functools.cache

@@ -1,0 +1,102 @@
+"""golden.patch: boxes, nodes and polynomials against what they stand for, and the error of a whole frame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from polyshade.golden import contract as k
+from polyshade.golden import patch
+from polyshade.golden.material import Material
+from polyshade.sim.scene.camera import Camera
+from polyshade.sim.scene.mesh import load_mesh
+from polyshade.sim.scene.raster import expand, resolve, scan_convert
+from polyshade.sim.scene.triangles import Triangles
+
+LIGHT = (0.3, 0.6, 0.8)
+ONE = 1 << k.INTENSITY_F
+
+
+def test_norm_is_never_short() -> None:
+    """Between the length and sqrt(3/2) of it, as for (2, 1, 1)."""
+    v = np.random.default_rng(1).integers(-(1 << 26), 1 << 26, (3, 100_000))
+    ratio = patch.norm(*v) / np.sqrt((v.astype(float) ** 2).sum(axis=0))
+    assert ratio.min() > 1 - 1e-6
+    assert ratio.max() < np.sqrt(1.5) + 1e-6
+
+
+def test_parabolas_are_exact() -> None:
+    """Any polynomial of degree 2 whose nodes are whole numbers comes out at every pixel to half an ulp."""
+    rng = np.random.default_rng(2)
+    c, s, t, p, q, r = rng.integers(-2000, 2000, (6, 1000)) * 8 + np.array([[20000], [0], [0], [0], [0], [0]])
+    values = {
+        (i, j): c + (s * i + t * j) // 2 + (p * i * i + q * i * j + r * j * j) // 4 for i, j in patch.NODES
+    }  # multiples of 8: nothing is lost
+    found = patch.coefficients(*(values[node] for node in patch.NODES))
+    assert all((part == wanted).all() for part, wanted in zip(found, (c, 2 * s, 2 * t, p, q, r), strict=True))
+    for x in range(-8, 8):
+        for y in range(-8, 8):
+            u, v = x / 8, y / 8
+            exact = c + s * u + t * v + p * u * u + q * u * v + r * v * v
+            error = np.abs(patch.value(found, x, y) - exact.clip(0, ONE - 1))
+            assert error.max() <= 0.5
+
+
+def test_light_of_normals_of_any_length() -> None:
+    """Lengths 1/2 to 2: diffuse light within 2 ulp of the exact cosine, the versine within the output's 2^-16."""
+    rng = np.random.default_rng(3)
+    words, _ = patch.registers(Material("blinn", 32), LIGHT)
+    n = rng.normal(size=(200_000, 3)) + np.array([0, 0, 1])
+    n *= (rng.uniform(0.52, 1.99, len(n)) / np.linalg.norm(n, axis=1))[:, None]
+    n = np.rint(n * ONE).astype(np.int64)
+    l, h = (np.array([words[v + axis] for axis in "xyz"]) for v in "lh")  # noqa: E741
+    exact = n.astype(np.longdouble)
+    length = np.sqrt((exact**2).sum(axis=1))
+    scale = np.longdouble(2) ** (2 * k.INTENSITY_F - k.PATCH_DOT_F)
+    parts = [np.rint((exact * v).sum(axis=1) / scale).astype(np.int64) for v in (l, h)]
+    square = np.rint((exact**2).sum(axis=1) / scale).astype(np.int64)
+    straight = np.stack([np.arange(512) * 64, np.full(512, 512)])  # the table is x itself, up to 1
+    diffuse, specular, flags = patch.light(*parts, square, words | {"shift": 0}, straight)
+    assert not flags.any()
+    assert np.abs(diffuse - (exact * l).sum(axis=1) / length).max() < 2
+    versine = np.sqrt((h.astype(np.longdouble) ** 2).sum()) / ONE - (exact * h).sum(axis=1) / length / ONE
+    seen = versine < 0.999
+    assert np.abs(specular / ONE - versine)[seen].max() < 2.0**-16
+
+
+def frame(n: float, weighted: bool = True) -> tuple[float, np.ndarray]:
+    """Evaluations a pixel and the NMSE of both channels of the head at 1024."""
+    mesh = load_mesh("head")
+    spans = scan_convert(Camera().project(mesh), mesh.faces, 1024)
+    given = Triangles.of(spans)
+    material = Material("blinn", n)
+    words, table = patch.registers(material, LIGHT, weighted)
+    drawn = patch.draw(patch.Triangles(*(getattr(given, f) for f in patch.Triangles._fields)), words, table)
+    every = expand(spans, 1024)
+    normal = spans.normal[every.span] + every.step[:, None] * spans.gradient[every.span]
+    exact = material.channels(normal / np.linalg.norm(normal, axis=1)[:, None], LIGHT).clip(0, 1)
+    intensity = np.zeros_like(exact)
+    intensity[drawn.order] = drawn.pixels / ONE
+    seen = resolve(spans, 1024)
+    seen = seen[seen >= 0]
+    error = ((intensity - exact)[seen] ** 2).sum(axis=0) / (exact[seen] ** 2).sum(axis=0)
+    return drawn.evaluations / len(exact), error
+
+
+@pytest.mark.parametrize(("n", "evaluations"), [(8, 0.18), (32, 0.20), (128, 0.22), (512, 0.25)])
+def test_the_head(n: float, evaluations: float) -> None:
+    """Few lights a pixel at every shininess, and an error that nobody sees."""
+    found, error = frame(n)
+    assert found <= evaluations
+    assert error.max() <= 1e-5
+
+
+def test_without_the_weight() -> None:
+    """Boxes far from the highlight as small as in it: three times as many lights at n = 512."""
+    found, error = frame(512, weighted=False)
+    assert found > 0.6
+    assert error.max() <= 1e-5
+
+
+def test_models_that_patches_do_not_have() -> None:
+    with pytest.raises(ValueError, match="model: ward is none of lambert, blinn"):
+        patch.registers(Material("ward"), LIGHT)

@@ -188,7 +188,7 @@ module shade_patch #(
 
   // ---- pieces -----------------------------------------------------------------------------------------------------------------------
   localparam int VALUES_W = 6 * shade_pkg::PATCH_VALUE_W;
-  logic piece_room, area_put, value_put, value_valid, piece_ready, piece_taken;
+  logic piece_room, area_valid, unused_valid, area_put, value_put, value_valid, piece_ready, piece_taken;
   logic [shade_pkg::PATCH_AREA_W-1:0] area_new, area;
   logic [VALUES_W-1:0] value_new, value;
   shade_patch_pieces u_pieces (
@@ -203,10 +203,12 @@ module shade_patch #(
   );
   // written before the values, read with them
   shade_fifo #(.WIDTH(shade_pkg::PATCH_AREA_W), .LOG2(FIFO), .BLOCK(1)) u_areas (
-    .clk_i, .rst_i, .valid_i(area_put), .data_i(area_new), .valid_o(), .ready_i(value_valid && piece_ready),
+    .clk_i, .rst_i, .valid_i(area_put), .data_i(area_new), .valid_o(area_valid), .ready_i(value_valid && piece_ready),
     .data_o(area), .taken_o()
   );
   shade_patch_room #(.LIMIT((1 << FIFO) - 64)) u_piece_room (.clk_i, .rst_i, .put_i(area_put), .taken_i(piece_taken), .room_o(piece_room));
+
+  assign unused_valid = area_valid;  // as value_valid
 
   logic [LANES-1:0] lane_ready;
   assign piece_ready = |lane_ready;

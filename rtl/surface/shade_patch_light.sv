@@ -42,7 +42,7 @@ module shade_patch_light (
   logic signed [W-1:0] l_fit, h_fit, l_q1, h_q1, l_q13, h_q13;
   logic signed [DOT_W-1:0] y_q1, y_q15;  // |H| - N.H
   logic [Z_W-1:0] z_q1;
-  logic short_q1, long_q1, short_q11, long_q11, short_q13, long_q13;
+  logic valid_q1, valid_q11, short_q1, long_q1, short_q11, long_q11, short_q13, long_q13;
   logic [R_F:0] y;
   logic [4:0] e;
   assign {p, h, l} = node_i;
@@ -51,6 +51,7 @@ module shade_patch_light (
   shade_limit #(.WIDTH(NEAR_W), .OUT_W(W)) u_l_fit (.x_i(l_near), .y_o(l_fit));
   shade_limit #(.WIDTH(NEAR_W), .OUT_W(W)) u_h_fit (.x_i(h_near), .y_o(h_fit));
   always_ff @(posedge clk_i) begin
+    valid_q1 <= valid_i && !rst_i;
     l_q1     <= l_fit;
     h_q1     <= h_fit;
     y_q1     <= $signed(DOT_W'(h_length_i)) - h;
@@ -58,7 +59,7 @@ module shade_patch_light (
     short_q1 <= p[DOT_W-1] || p[DOT_W-2:DOT_F-2] == '0;
     long_q1  <= !p[DOT_W-1] && p[DOT_W-2:DOT_F+2] != '0;
   end
-  shade_rsqrt u_rsqrt (.clk_i, .rst_i, .valid_i(1'b0), .z_i(z_q1), .valid_o(), .y_o(y), .e_o(e), .zero_o());
+  shade_rsqrt u_rsqrt (.clk_i, .rst_i, .valid_i(valid_q1), .z_i(z_q1), .valid_o(valid_q11), .y_o(y), .e_o(e), .zero_o());
   shade_delay #(.WIDTH(2), .DEPTH(RSQRT)) u_flags (.clk_i, .d_i({short_q1, long_q1}), .q_o({short_q11, long_q11}));
   shade_delay #(.WIDTH(2 * W), .DEPTH(RSQRT + 2)) u_lh (.clk_i, .d_i({h_q1, l_q1}), .q_o({h_q13, l_q13}));
   shade_delay #(.WIDTH(DOT_W), .DEPTH(RSQRT + 2 + MUL)) u_y (.clk_i, .d_i(y_q1), .q_o(y_q15));
@@ -155,5 +156,5 @@ module shade_patch_light (
     specular_o <= fit;
   end
 
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_PATCH_LIGHT)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_PATCH_LIGHT - RSQRT - 1)) u_valid (.clk_i, .rst_i, .valid_i(valid_q11), .valid_o);
 endmodule

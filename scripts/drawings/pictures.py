@@ -4,6 +4,7 @@ docs/head.png              the default head, every pixel out of the RTL
 docs/forms.png             P1's form and the refined one, and their errors
 docs/gallery.png           every model, energy scale and form
 docs/degrees.png           which degree the planner gives to which pixel
+docs/architecture.svg      every path from vertices to pixels
 docs/datapath.svg          shade_core, latencies from the contract
 docs/timing_core.svg       its streams, from a waveform
 docs/timing_poly_span.svg  the streams of shade_poly_span, from a waveform
@@ -109,6 +110,71 @@ def datapath(path: Path) -> None:
     made.text((52 + lefts[3] + 40) / 2, normals - 6, words, 11)
     made.arrow(f"M14 {setting}H{lefts[3] + 92}V{bottom}", dash="5 4")
     made.text((14 + lefts[3] + 92) / 2, setting - 6, "AXI4-Lite: material, light, thresholds; status, counters", 11)
+    made.save(path)
+
+
+PATHS = {  # path: what it takes, its stages: module and what it does
+    "line": (
+        "spans",
+        ("planner", "κ: records"),
+        ("node_walk", "normals at nodes"),
+        ("unit", "to length 1"),
+        ("light", "at nodes"),
+        ("collect", "records"),
+        ("poly_span", "differences"),
+    ),
+    "normals": ("spans", ("pixel_normals", "midpoints"), ("light", "at every pixel"), ("poly_span", "hands on")),
+    "direct": (
+        "surfaces",
+        ("direct_setup", "N·L, N·H, N·N"),
+        ("direct_line", "start of a run"),
+        ("direct_run", "a pixel: 3 sums"),
+        ("direct_light", "at every pixel"),
+    ),
+    "patch": (
+        "surfaces",
+        ("patch_plan", "size of boxes"),
+        ("patch_dots", "N·L, N·H, N·N"),
+        ("patch_nodes", "six a box"),
+        ("patch_light", "at nodes"),
+        ("patch_pieces", "coefficients"),
+        ("patch_lane", "differences"),
+    ),
+    "vector": ("spans", ("increment", "N + j G"), ("normalize", "to length 1"), ("light", "at every pixel")),
+}
+
+
+def architecture(path: Path) -> None:
+    """Every path from vertices to pixels."""
+    left, top, pitch, width, height, step = 250, 84, 70, 104, 44, 124
+    bottom, right = top + pitch * len(PATHS), left + step * 6
+    made = svg.Svg(right + 110, bottom + 14)
+    made.text(24, 32, "From vertices to pixels", 16, "start", font_weight="bold")
+    made.text(
+        24, 51, "every arrow between boxes of a row is a stream or a pipeline with credits", 12, "start", fill=GREY
+    )
+    made.box(24, top, 120, bottom - top - pitch + height)
+    for i, words in enumerate(("raster", "edges, top-left rule,", "increments, depth", "or the user's own")):
+        made.text(84, top + 24 + 17 * i, words, 13 if i == 0 else 11, font_weight="bold" if i == 0 else "normal")
+    made.arrow(f"M84 60V{top}")
+    made.text(92, 74, "vertices", 11, "start")
+    for row, (name, (packets, *stages)) in enumerate(PATHS.items()):
+        y = top + pitch * row
+        middle = y + height / 2
+        made.arrow(f"M144 {middle}H{left}")
+        made.text(197, middle - 7, packets, 11)
+        made.text(197, middle + 17, name, 12, font_weight="bold")
+        for place, (module, words) in enumerate(stages):
+            x = left + step * place
+            made.box(x, y, width, height)
+            made.text(x + width / 2, y + 18, module, 12, font_weight="bold")
+            made.text(x + width / 2, y + 35, words, 11)
+            end = right if place == len(stages) - 1 else x + step
+            made.arrow(f"M{x + width} {middle}H{end}")
+    made.path(f"M{right} {top}V{bottom - pitch + height}", svg.ACCENT, 2.4)
+    made.text(right + 10, (top + bottom) / 2 - 22, "pixels", 13, "start", font_weight="bold")
+    made.text(right + 10, (top + bottom) / 2 - 5, "diffuse, specular;", 11, "start")
+    made.text(right + 10, (top + bottom) / 2 + 10, "depth, colour", 11, "start")
     made.save(path)
 
 
@@ -223,6 +289,7 @@ def main() -> None:
         "forms.png": forms,
         "gallery.png": every_model,
         "degrees.png": degrees,
+        "architecture.svg": architecture,
         "datapath.svg": datapath,
         "timing_core.svg": timing_core,
         "timing_poly_span.svg": timing_poly_span,

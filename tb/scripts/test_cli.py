@@ -161,8 +161,18 @@ def sane(folder: Path, hints: int = 0) -> dict:
 
 
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize(("evaluator", "lanes"), [("horner", 1), ("fdiff", 1), ("fdiff", 2), ("fdiff", 4)])
-@pytest.mark.parametrize("form", ["refined", "paper"])
+@pytest.mark.parametrize(
+    ("form", "evaluator", "lanes"),
+    [
+        ("refined", "horner", 1),
+        ("refined", "fdiff", 1),
+        ("refined", "fdiff", 4),
+        ("paper", "fdiff", 1),
+        *(pytest.param(*way, marks=pytest.mark.full) for way in (
+            ("refined", "fdiff", 2), ("paper", "horner", 1), ("paper", "fdiff", 2), ("paper", "fdiff", 4)
+        )),
+    ],
+)  # fmt: skip
 def test_ways_to_shade(polyshade, place: Path, form: str, evaluator: str, lanes: int, model: str) -> None:
     """Every form, evaluator and light: equal to the golden model, and in the refined form near the reference."""
     options = ["--size", "64", "--form", form, "--evaluator", evaluator, "--lanes", str(lanes), "--model", model]
@@ -823,6 +833,7 @@ def test_units(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "polyshade.sim.load" in err
 
 
+@pytest.mark.full
 def test_bench(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The report of the speeds: every ratio is that of two values in it."""
     monkeypatch.setattr(bench, "OUT", place / "bench.json")

@@ -1,10 +1,18 @@
-"""Every check of ``make lint`` as a test of its own."""
+"""Every check of ``make lint`` as a test of its own; the netlists of most points only in ``make test-all``."""
 
 import pytest
 from polyshade.scripts.flow import lint
 
 
-@pytest.mark.parametrize("item", list(lint.items()), ids=lambda item: item.name.replace(" ", "-"))
+def checks() -> list:
+    """Yosys and Verible read the default point and the next one, the other tools all of them."""
+    return [
+        pytest.param(item, id=item.name.replace(" ", "-"), marks=pytest.mark.full if item.slow else ())
+        for item in lint.items()
+    ]
+
+
+@pytest.mark.parametrize("item", checks())
 def test_lint(item: lint.Item) -> None:
     """No fault found."""
     faults = item.check()

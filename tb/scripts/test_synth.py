@@ -29,9 +29,14 @@ def fast(name: str) -> dict[str, float]:
 
 # what is made of many modules takes minutes: those are left to make synth
 UNITS = [design for design in synth.designs(list(synth.modules())) if len(design.files) < 20]
+SMALL = 8  # files; what has more, or is a variant, is left to make test-all
 
 
-@pytest.mark.parametrize("design", UNITS, ids=lambda design: design.name)
+@pytest.mark.parametrize(
+    "design",
+    [pytest.param(d, marks=pytest.mark.full if len(d.files) >= SMALL or d.point else ()) for d in UNITS],
+    ids=lambda design: design.name,
+)
 def test_every_unit_maps(design: synth.Design) -> None:
     """Every unit and variant synthesizes; only what multiplies takes DSP blocks."""
     synth.elaborate(design)
@@ -42,6 +47,7 @@ def test_every_unit_maps(design: synth.Design) -> None:
         assert result["dsp"] == 0
 
 
+@pytest.mark.full
 def test_coefficients_against_the_naive_form() -> None:
     """shade_coef: no DSP, at least 5 times the clock rate of ``*`` and ``/ 3`` in one step, at no more LUTs."""
     ours, naive = fast("shade_coef"), fast("yardstick_coef")

@@ -75,7 +75,7 @@ def compare(drawn: SimpleNamespace, outputs: dict[str, np.ndarray]) -> tuple[np.
     return core.compare(outputs, drawn.lines, drawn.lines.beats, drawn.wanted)
 
 
-@pytest.mark.parametrize("lanes", [1, 2, 4])
+@pytest.mark.parametrize("lanes", [1, pytest.param(2, marks=pytest.mark.full), 4])
 def test_the_core_itself(drawn: SimpleNamespace, lanes: int) -> None:
     """It gives what the fixture says, and nothing is found in it."""
     point = {"LANES": lanes, "EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED}

@@ -8,7 +8,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-all test-one lint format generate bench units papers synth formal pictures tables lock clean distclean
+.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -40,6 +40,10 @@ test-one: $(READY) ## Run one test again: T='tb/...::test_x[...]' SEED=1 WAVES=1
 
 lint: $(READY) ## Check RTL and Python: Verilator, Yosys, rules of the house, ruff
 	$(BIN)/python -m polyshade.scripts.flow.lint
+
+sources: ## Write build/shade.f: the list of sources with absolute paths, for tools that only know -f
+	@mkdir -p build
+	sed -e 's|//.*||' -e '/^ *$$/d' -e 's|^|$(CURDIR)/rtl/|' rtl/shade.f > build/shade.f
 
 generate: $(READY) ## Write what is generated: rtl/shade_pkg.sv, the table of 1/sqrt, docs/registers.md, docs/interface.md
 	$(BIN)/python -m polyshade.scripts.flow.generate

@@ -13,7 +13,7 @@ Point = dict[str, int]  # parameters of a module
 def sources() -> list[Path]:
     """Every listed file in order, as absolute paths; the package comes first. ``//`` starts a comment."""
     lines = (line.split("//")[0].strip() for line in FILE_LIST.read_text().splitlines())
-    return [ROOT / line for line in lines if line]
+    return [FILE_LIST.parent / line for line in lines if line]
 
 
 def modules() -> dict[str, Path]:

@@ -3,9 +3,12 @@
 * the file list names every file under ``rtl/`` once, the package first;
 * Verilator ``-Wall`` elaborates every module as its own top at every point of ``scripts.flow.points``, without a
   warning, and refuses the points that are out of range in words;
+* Verible's parser reads every file;
 * Yosys reads every module at every point with its own reader and with slang, finds no latch, no loop, no
   undriven net and no multiplier or divider outside ``shade_mul``, and synthesizes it as far as word-level
   cells (all the way to the cells of a family: ``scripts.flow.synth``);
+* Icarus, if it is installed, reads the plain Verilog that Yosys writes of each of these;
+* what there should be less of does not grow: part selects, ports, idle handshakes, initial values, long modules;
 * every module is named like its file, opens with a header that states formula, latency and an example, has a row
   in ``rtl/README.md``, a golden twin, and a case in ``sim/units`` or a bench in ``tb``;
 * what documents, headers and docstrings mention exists (``scripts.flow.documents``); tables are those that
@@ -31,7 +34,7 @@ from polyshade.scripts.flow import documents, tools
 from polyshade.scripts.flow.points import REFUSED, points
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources
-from polyshade.sim.tools import environment
+from polyshade.sim.tools import environment, package
 from polyshade.sim.tools import verilator as installed
 from polyshade.sim.units import cases
 from polyshade.sim.verilate import reached
@@ -51,6 +54,7 @@ class Item:
 
     name: str
     check: Callable[[], list[str]]
+    slow: bool = False  # as a test only in make test-all
 
 
 def items() -> Iterator[Item]:
@@ -58,6 +62,8 @@ def items() -> Iterator[Item]:
     yield Item("file list", file_list)
     yield Item("ruff check", partial(_ruff, "check", "--quiet", "--output-format=concise"))
     yield Item("ruff format", partial(_ruff, "format", "--check", "--quiet", "--output-format=concise"))
+    yield Item("verible", partial(verible, sources()))
+    yield Item("ratchets", ratchets)
     yield Item("documents", documents.check)
     yield Item("tables", tables.check)
     for module, path in modules().items():
@@ -65,9 +71,9 @@ def items() -> Iterator[Item]:
     for module in modules():
         for point in REFUSED.get(module, []):
             yield Item(f"refused {label(module, point)}", partial(refused, module, point))
-        for point in points(module):
+        for number, point in enumerate(points(module)):
             yield Item(f"verilator {label(module, point)}", partial(verilator, module, point))
-            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point))
+            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point), number > 1)
 
 
 def file_list() -> list[str]:
@@ -150,21 +156,76 @@ def yosys(module: str, point: Point) -> list[str]:
         opt
         check -assert
         design -reset
-        read_slang --keep-hierarchy --top {module}{given} {files}
+        read_slang -Wwidth-trunc --keep-hierarchy --top {module}{given} {files}
         {rules}
+        opt_clean
+        write_verilog -noattr plain.v
     """
     try:
         log = tools.yosys(script, folder)
     except UserError as error:
         return [str(error)]
-    return [line for line in log.splitlines() if line.startswith("Warning")]
+    found = [line for line in log.splitlines() if "Warning: " in line]
+    return found + icarus(module, folder / "plain.v")
+
+
+def icarus(module: str, netlist: Path) -> list[str]:
+    """Faults that Icarus finds in the plain Verilog that Yosys writes of a module; none if it is not installed."""
+    if not shutil.which("iverilog"):
+        return []
+    command = ["iverilog", "-g2005", "-Wall", "-Wno-timescale", "-t", "null", "-s", module, netlist]
+    done = subprocess.run(command, capture_output=True, text=True)
+    return (done.stdout + done.stderr).splitlines()
+
+
+def verible(files: list[Path]) -> list[str]:
+    """What Verible's parser does not read."""
+    package("verible")
+    program = Path(sys.executable).parent / "verible-verilog-syntax"
+    done = subprocess.run([program, *files], capture_output=True, text=True)
+    return (done.stdout + done.stderr).splitlines() if done.returncode else []
+
+
+# What there may be at most of. The numbers only fall.
+RATCHETS = {
+    "indexed part selects and bits picked by a constant of the package, a module": 4.8,
+    "ports, a module": 13.6,
+    "handshakes tied off or left open": 71,
+    "lines of the longest module": 316,
+    "registers with an initial value": 2,
+}
+
+
+def ratchets() -> list[str]:
+    """Faults of what there is too much of, with the number that is allowed."""
+    counts = counted([path.read_text() for path in modules().values() if path.exists()])
+    return [f"{name}: {counts[name]:g}, allowed {limit}" for name, limit in RATCHETS.items() if counts[name] > limit]
+
+
+def counted(texts: list[str]) -> dict[str, float]:
+    """How much there is of what :data:`RATCHETS` limits, in the sources of modules."""
+    plain = [re.sub(r"//.*", "", text) for text in texts]
+
+    def found(pattern: str) -> int:
+        return sum(len(re.findall(pattern, text, re.MULTILINE)) for text in plain)
+
+    numbers = (
+        found(r"\w\[[^][]*(?:[+-]:[^][]*|shade_pkg::\w+)\]") / len(texts),
+        found(r"^\s*(?:input|output)\b") / len(texts),
+        found(r"\.valid_i\(1'b0\)|\.\w*valid_o\(\)"),
+        max(len(text.splitlines()) for text in texts),
+        found(r"^\s*(?:initial\b|logic\b[^;=]*_q\w*[^;=]*=[^=])"),
+    )
+    return dict(zip(RATCHETS, numbers, strict=True))
 
 
 def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
+    """In a folder of its own, to which no path of the list is relative."""
     options = [f"-G{name}={value}" for name, value in point.items()]
-    files = ["rtl/lint.vlt", "-f", "rtl/shade.f"]
+    files = [RTL / "lint.vlt", "-F", RTL / "shade.f"]
     command = [installed().program, "--lint-only", "-Wall", "--top-module", module, *options, *files]
-    return subprocess.run(command, cwd=ROOT, env=environment(), capture_output=True, text=True)
+    (BUILD / "lint").mkdir(parents=True, exist_ok=True)
+    return subprocess.run(command, cwd=BUILD / "lint", env=environment(), capture_output=True, text=True)
 
 
 def _ruff(*arguments: str) -> list[str]:
@@ -204,6 +265,8 @@ def main() -> int:
             faulty += bool(faults)
             for fault in faults:
                 tqdm.write(f"{item.name}: {fault}")
+    if not shutil.which("iverilog"):
+        print("lint: iverilog: not installed, nothing was read by Icarus")
     print(f"lint: {len(checks)} checks, {faulty} failed")
     return int(faulty > 0)
 

@@ -1,11 +1,14 @@
 """The lint itself: every rule bites on a module that breaks it, and on nothing else."""
 
+import os
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
 from polyshade.scripts.flow import lint
 from polyshade.sim.sources import ROOT
+from polyshade.sim.tools import environment, verilator
 
 GOOD = """\
 // shade_toy: y = x + 1.
@@ -38,7 +41,7 @@ def toy(tmp_path, monkeypatch) -> Path:
     path.parent.mkdir(parents=True)
     path.write_text(GOOD)
     (tmp_path / "rtl" / "lint.vlt").write_text("`verilator_config\n")
-    (tmp_path / "rtl" / "shade.f").write_text("rtl/fixed/shade_toy.sv\n")
+    (tmp_path / "rtl" / "shade.f").write_text("fixed/shade_toy.sv\n")
     (tmp_path / "rtl" / "README.md").write_text("| [`shade_toy`](fixed/shade_toy.sv) | x + 1 |\n")
     bench = tmp_path / "tb" / "fixed" / "test_toy.py"
     bench.parent.mkdir(parents=True)
@@ -86,6 +89,68 @@ def test_yosys_rules(toy: Path, old: str, new: str, fault: str) -> None:
     toy.write_text(GOOD.replace(old, new))
     faults = lint.yosys("shade_toy", {})
     assert len(faults) == 1 and fault in faults[0]
+
+
+def test_verible_rules(toy: Path) -> None:
+    """What the parser does not read: the place is told."""
+    assert lint.verible([toy]) == []
+    toy.write_text(GOOD.replace("= sum_q[W-1:0]", "= sum_q[W-1:0"))
+    (fault, *_) = lint.verible([toy])
+    assert "shade_toy.sv:17:" in fault
+
+
+def test_slang_rules(toy: Path) -> None:
+    """What Yosys' own reader lets pass: a width that does not fit."""
+    toy.write_text(GOOD.replace("assign y_o = sum_q[W-1:0]", "assign y_o = sum_q"))
+    assert any("implicit conversion truncates" in fault for fault in lint.yosys("shade_toy", {}))
+
+
+def test_icarus_rules(toy: Path, tmp_path: Path, monkeypatch) -> None:
+    """It reads the Verilog that Yosys wrote, and what it says is a fault; without it nothing is said."""
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"), prepend=os.pathsep)
+    assert lint.yosys("shade_toy", {}) == []
+    program = tmp_path / "bin" / "iverilog"
+    program.parent.mkdir()
+    program.write_text('#!/bin/sh\nfor last; do :; done\ngrep -c "^module shade_toy" "$last"\n')
+    program.chmod(0o755)
+    assert lint.yosys("shade_toy", {}) == ["1"]
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ("assign y_o = x_i[0 +: W];", "indexed part selects"),
+        ("assign y_o = x_i[shade_pkg::LINE_FLAT];", "indexed part selects"),
+        ("shade_a u_a (.valid_i(1'b0), .x_i(x_i));", "handshakes"),
+        ("shade_a u_a (.x_i(x_i), .valid_o());", "handshakes"),
+        ("initial y_q = 1'b0;", "registers with an initial value"),
+        ("logic [3:0] y_q = 4'd0;", "registers with an initial value"),
+    ],
+)
+def test_ratchets(line: str, name: str) -> None:
+    """One more of it is counted; a comment is not."""
+    before, after = (lint.counted([GOOD.replace("  logic unused;", f"  {text}\n")]) for text in (f"// {line}", line))
+    (key,) = (key for key in before if key.startswith(name))
+    assert (after.pop(key), before.pop(key)) == (1, 0)
+    assert after == before
+
+
+def test_ratchets_are_told(monkeypatch) -> None:
+    """The number and the limit."""
+    monkeypatch.setattr(lint, "RATCHETS", dict.fromkeys(lint.RATCHETS, 0))
+    assert any(fault.startswith("lines of the longest module: ") for fault in lint.ratchets())
+
+
+def test_the_list_of_sources_from_any_folder(tmp_path: Path) -> None:
+    """With -F as it is; with -f as make writes it. No warning but those that lint.vlt waives."""
+    subprocess.run(["make", "-s", "sources"], cwd=ROOT, check=True)
+    for option, path in (("-F", ROOT / "rtl" / "shade.f"), ("-f", ROOT / "build" / "shade.f")):
+        command = [verilator().program, "--lint-only", "-Wall", "--top-module", "shade_fifo"]
+        waivers = ROOT / "rtl" / "lint.vlt"
+        done = subprocess.run(
+            [*command, waivers, option, path], cwd=tmp_path, env=environment(), capture_output=True, text=True
+        )
+        assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_verilator_rules(toy: Path) -> None:

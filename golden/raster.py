@@ -120,7 +120,7 @@ def gradient(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False) 
     [131071, 0]
     """
     cross, r, e = integers(cross, r, e)
-    left = 4 + ALIGN - e - 7 * depth
+    left = 4 + ALIGN - e - k.DEPTH_DOWN * depth
     up, down = np.maximum(left, 0), np.maximum(-left, 0)
     bits = k.STEP_W + 3  # what goes into the multiplier
     wide = (up > 0) & ((cross >> np.maximum(bits - 1 - up, 0)) + 1 >> 1 != 0)  # more than its sign would be lost

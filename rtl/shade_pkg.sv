@@ -170,6 +170,7 @@ package shade_pkg;
   localparam int AREA_W = 51;
   localparam int RECIPROCAL_F = 17;  // 1/m of m in [1, 2), U0.17 below 1
   localparam int RECIPROCAL_M_W = 20;  // bits of m that are looked at, U1.19
+  localparam int DEPTH_DOWN = 7;  // sums of a depth move down by so much more than those of a normal
   localparam int PLANE_F = 30;  // depth and its increments, S1.30, modulo 4
   localparam int LINE_W = 17;  // a line or column of the plane of vertices, S16
   localparam int REST_W = 26;  // remainder of an edge on its first line
@@ -248,8 +249,8 @@ package shade_pkg;
   localparam int LATENCY_FIFO_BLOCK = 3;  // one more
   localparam int LATENCY_CROSS = 4;  // products, difference, sum
   localparam int LATENCY_EXPONENT = 4;  // four shifter levels
-  localparam int LATENCY_RECIPROCAL = 13;  // two bits of the quotient a clock
-  localparam int LATENCY_GRADIENT = 7;  // three shifter levels, product, rounding, pair
+  localparam int LATENCY_RECIPROCAL = 14;  // three times m, two bits of the quotient a clock
+  localparam int LATENCY_GRADIENT = 8;  // three shifter levels, product, rounding, range, pair
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products

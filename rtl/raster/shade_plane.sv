@@ -6,7 +6,7 @@
 // shade_raster, kept in a FIFO of 16 words, run_credit_o frees one. A triangle without a run is dropped: empty_o.
 // surface_valid_o stands until surface_ready_i; the runs of a surface, behind it on run_valid_o, do not wait for it.
 //
-// One 32 x 18 multiplier (two blocks). 13 clocks a triangle, 21 a wide one; a run a clock.
+// One 32 x 18 multiplier (two blocks). 15 clocks a triangle, 23 a wide one; a run a clock.
 // Example: dcolumn = 2^20, dline = 0, x = 128, column = 4 -> value = vertex 0 + 2^22.
 module shade_plane (
   input  logic                clk_i,
@@ -50,7 +50,7 @@ module shade_plane (
   // ---- control: of each triangle the runs move on, and four components are made, both at once ---------------------------
   logic moving_q, busy_q, drop_q, start, move, step, whole, last_component;
   logic [1:0] component_q, part_q, parts;  // part: {upper half, line}
-  logic [2:0] result_q;
+  logic [4:0] result_q;
   logic credit_q0;
   logic [WAIT_LOG2:0] credit_q;
   logic after_taken;
@@ -92,15 +92,15 @@ module shade_plane (
   logic [1:0][W:0] way_q;  // line, column
   logic [W:0] way;
   logic [17:0] way_part;
-  logic [S_W+17:0] product_q2;
-  logic [SUM_W-1:0] sum_q3, base, half_up;
-  logic first_q2, shift_q2, first_q1, shift_q1, result;
+  logic [S_W+17:0] product_q3;
+  logic [SUM_W-1:0] sum_q4, base, half_up_q5;
+  logic first_q3, shift_q3, first_q2, shift_q2, first_q1, shift_q1, result;
   assign way      = way_q[part_q[0]];
   assign way_part = part_q[1] ? {{(35 - W) {way[W]}}, way[W-1:17]} : {way[17] && !surface_large_q, way[16:0]};
-  shade_mul #(.A_W(S_W), .B_W(18)) u_mul (
-    .clk_i, .a_i(part_q[0] ? pair.line : pair.column), .b_i(way_part), .p_o(product_q2)
+  shade_mul #(.A_W(S_W), .B_W(18), .STAGES(shade_pkg::LATENCY_MUL_IN)) u_mul (
+    .clk_i, .a_i(part_q[0] ? pair.line : pair.column), .b_i(way_part), .p_o(product_q3)
   );
-  assign base    = first_q2 ? '0 : shift_q2 ? {sum_q3[SUM_W-18:0], 17'd0} : sum_q3;
+  assign base    = first_q3 ? '0 : shift_q3 ? {sum_q4[SUM_W-18:0], 17'd0} : sum_q4;
   assign result  = pair_taken && !drop_q;
   always_ff @(posedge clk_i) begin
     if (start) begin
@@ -109,8 +109,10 @@ module shade_plane (
     end
     {first_q1, shift_q1} <= {part_q == parts, part_q == 2'b00};
     {first_q2, shift_q2} <= {first_q1, shift_q1};
-    sum_q3               <= base + product_q2[SUM_W-1:0];
-    result_q             <= rst_i ? '0 : {result_q[1:0], result};
+    {first_q3, shift_q3} <= {first_q2, shift_q2};
+    half_up_q5           <= sum_q4 + SUM_W'(1 << (F - 1));
+    sum_q4               <= base + product_q3[SUM_W-1:0];
+    result_q             <= rst_i ? '0 : {result_q[3:0], result};
   end
 
   // ---- vertex 0 and the way, component by component ---------------------------------------------------------------------------
@@ -120,9 +122,8 @@ module shade_plane (
   logic [shade_pkg::PLACE_W-1:0] left_q;
   logic [shade_pkg::TAG_W:0] tag_q;
   logic narrow_q;
-  assign half_up = sum_q3 + SUM_W'(1 << (F - 1));
   logic unused_low;
-  assign unused_low = ^{half_up[F-1:0], product_q2[S_W+17:SUM_W]};
+  assign unused_low = ^{half_up_q5[F-1:0], product_q3[S_W+17:SUM_W]};
   localparam int N_UP = shade_pkg::STEP_F - shade_pkg::VERTEX_F;
   localparam int Z_UP = shade_pkg::PLANE_F - shade_pkg::DEPTH_F;
   always_ff @(posedge clk_i) begin
@@ -134,13 +135,13 @@ module shade_plane (
       lines_q   <= head_i.bottom - C_W'(run.line);
       left_q    <= run.column - head_i.left[shade_pkg::PLACE_W-1:0];
       tag_q     <= {head_i.corner.flat, head_i.corner.tag};
-    end else if (result_q[2]) begin
+    end else if (result_q[4]) begin
       vertex_q  <= {vertex_q[0], vertex_q[3:1]};
     end
-    if (result_q[2]) value_q <= {vertex_q[0] + half_up[SUM_W-1:F], value_q[3:1]};
+    if (result_q[4]) value_q <= {vertex_q[0] + half_up_q5[SUM_W-1:F], value_q[3:1]};
     if (pair_taken) {dline_q, dcolumn_q} <= {pair.line, dline_q[3:1], pair.column, dcolumn_q[3:1]};
-    made_q          <= start ? 2'd0 : made_q + 2'(result_q[2]);
-    surface_valid_o <= !rst_i && ((result_q[2] && made_q == 2'd3) || (surface_valid_o && !surface_ready_i));
+    made_q          <= start ? 2'd0 : made_q + 2'(result_q[4]);
+    surface_valid_o <= !rst_i && ((result_q[4] && made_q == 2'd3) || (surface_valid_o && !surface_ready_i));
   end
 
   // ---- do the increments of the normal, times the largest power of two below the box's size, stay in [-2, 2)? ---------------------

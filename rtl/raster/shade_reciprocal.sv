@@ -1,8 +1,8 @@
 // shade_reciprocal: 1/a = r 2^-17 2^-e for an integer a, 1 <= a < 2^51: range reduction, then a division bit by bit.
 //
-//   a_i  U51.0         with start_i, at most every LATENCY_RECIPROCAL clocks
+//   a_i  U51.0         with start_i, at most every 10 clocks
 //   e_o  U6            place of the highest bit of a, LATENCY_EXPONENT = 4 clocks after start_i; holds
-//   r_o  U0.17         LATENCY_RECIPROCAL = 13 clocks after start_i; holds until the next one
+//   r_o  U0.17         LATENCY_RECIPROCAL = 14 clocks after start_i; holds until the next one
 //
 //   m = a 2^-e         U1.19, cut            r = 1/m to nearest, ties up, at most 1 - 2^-17
 //
@@ -54,23 +54,36 @@ module shade_reciprocal (
   assign e_o = 6'(A_W - 1) - shift_q;
 
   // ---- 1/m: remainders of 2^(M_W-1) / m, two bits of the quotient a clock, one more than r has ---------------------------
-  logic [M_W-1:0] rest_q, rest, rest_1, rest_2;
-  logic [M_W:0] less_1, less_2;
+  logic [M_W-1:0] rest_q;
+  logic [M_W+1:0] triple_q, less_1, less_2, less_3, four;
   logic [R_F-2:0] quotient_q;
-  logic [R_F:0] quotient;
+  logic [R_F:0] quotient, rounded;
+  logic [1:0] digit;
   logic [3:0] left_q;
-  assign rest     = load_q ? M_W'(1) << (M_W - 1) : rest_q;
-  assign less_1   = {rest, 1'b0} - {1'b0, m_q4};
-  assign rest_1   = less_1[M_W] ? {rest[M_W-2:0], 1'b0} : less_1[M_W-1:0];
-  assign less_2   = {rest_1, 1'b0} - {1'b0, m_q4};
-  assign rest_2   = less_2[M_W] ? {rest_1[M_W-2:0], 1'b0} : less_2[M_W-1:0];
-  assign quotient = {quotient_q, !less_1[M_W], !less_2[M_W]};
-  logic [R_F:0] rounded;
-  assign rounded = {1'b0, quotient[R_F:1]} + (R_F + 1)'(quotient[0]);
+  logic first_q;
+  assign four     = {rest_q, 2'b00};
+  assign less_1   = four - {2'b00, m_q4};
+  assign less_2   = four - {1'b0, m_q4, 1'b0};
+  assign less_3   = four - triple_q;
+  assign digit    = four >= triple_q ? 2'd3 : four >= {1'b0, m_q4, 1'b0} ? 2'd2 : {1'b0, four >= {2'b00, m_q4}};
+  assign quotient = {quotient_q, digit};
+  assign rounded  = {1'b0, quotient[R_F:1]} + (R_F + 1)'(quotient[0]);
   always_ff @(posedge clk_i) begin
-    rest_q     <= rest_2;
+    triple_q <= {2'b00, m_q4} + {1'b0, m_q4, 1'b0};
+    first_q  <= load_q;
+    if (load_q) rest_q <= M_W'(1) << (M_W - 1);
+    else begin
+      case (digit)
+        2'd0: rest_q <= four[M_W-1:0];
+        2'd1: rest_q <= less_1[M_W-1:0];
+        2'd2: rest_q <= less_2[M_W-1:0];
+        default: rest_q <= less_3[M_W-1:0];
+      endcase
+    end
     quotient_q <= quotient[R_F-2:0];
-    left_q     <= load_q ? 4'd8 : left_q - 4'(left_q != 4'd0);
-    if (left_q == 4'd1 && !load_q) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
+    left_q     <= first_q ? 4'd8 : left_q - 4'(left_q != 4'd0);
+    if (left_q == 4'd1 && !first_q) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
   end
+  logic unused_less;
+  assign unused_less = ^{less_1[M_W+1:M_W], less_2[M_W+1:M_W], less_3[M_W+1:M_W]};
 endmodule

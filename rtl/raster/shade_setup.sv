@@ -45,7 +45,7 @@ module shade_setup (
   localparam int L_W = shade_pkg::LINE_W;
   localparam int N_W = shade_pkg::VERTEX_W + 1;
   localparam int Z_W = shade_pkg::DEPTH_F + 1;
-  localparam int CROSS = shade_pkg::LATENCY_CROSS;
+  localparam int CROSS = 1 + shade_pkg::LATENCY_CROSS;
   localparam int PIXEL_W = shade_pkg::COUNT_W;
 
   // a number's upper part and its lower 17 bits, or as much of a small one as a multiplier takes
@@ -96,7 +96,7 @@ module shade_setup (
   // ---- second place: the steps 0 to 2 are edges, 3 to 10 sums, column and line of each component in turn --------------------
   localparam int EDGES = 3;
   localparam int LAST = 10;
-  logic start, second_q, c_minus_q, face, main, whole, done, final_step, known_q, minus_q, at_begin;
+  logic start, second_q, c_minus_q, face, main, whole, done, final_step, known_q, minus_q, at_begin, drop;
   logic [3:0] step_q;
   shade_pkg::sized_t c_sized_q;
   logic [1:0][W:0] c_dx_q, c_dy_q;
@@ -118,7 +118,7 @@ module shade_setup (
   assign whole      = now == 2'b00;
   assign done       = main && whole;
   assign edge_step  = done && is_edge;
-  assign release_first = (edge_step && step_q == 4'(EDGES - 1)) || (area_now && !good);
+  assign release_first = (edge_step && step_q == 4'(EDGES - 1)) || drop;
 
   // the parts that come next: both upper ones first; at the end of a step those of the next one
   function automatic logic [1:0] following(input logic [1:0] x, input logic both);
@@ -146,63 +146,84 @@ module shade_setup (
     second_q <= !rst_i && (start || (second_q && !(done && final_step)));
   end
 
-  // ---- factors ------------------------------------------------------------------------------------------------------------
-  logic [1:0][W:0] f, g;  // of the sum f1 g2 - f2 g1
+  // ---- factors, in a register; then the part that is multiplied ---------------------------------------------------------
+  logic [1:0][W:0] f, g, f_q, g_q;  // of the sum f1 g2 - f2 g1
   logic [1:0][17:0] f_part, g_part;
-  logic [1:0] comp;
+  logic [1:0] comp, now_q;
+  logic f_wide_q, g_wide_q, sum_first_q, shift_q, minus_sum_q;
   assign comp = step_q[2:1] - 2'd1 - 2'(!step_q[0]);  // 3, 4 -> 0 ... 9, 10 -> 3
   always_comb begin
     for (int i = 0; i < 2; i++) begin
-      f[i]      = face ? dx_q[i] : c_dz_q[i];
-      g[i]      = face ? dy_q[i] : is_edge ? (i == 0 ? edge_dx : edge_dy) : is_line ? c_dx_q[i] : c_dy_q[i];
-      f_part[i] = part(f[i], now[1], !face || large_q);
-      if (!face && !is_depth) f_part[i] = c_dn_q[i][comp];
-      if (!face && is_edge) f_part[i] = i == 0 ? {10'h3ff, ~edge_u} : {10'd0, edge_t};
-      g_part[i] = part(g[i], now[0], parts[0]);
+      case (comp)
+        2'd0: f[i] = {{(W + 1 - N_W) {c_dn_q[i][0][N_W-1]}}, c_dn_q[i][0]};
+        2'd1: f[i] = {{(W + 1 - N_W) {c_dn_q[i][1][N_W-1]}}, c_dn_q[i][1]};
+        2'd2: f[i] = {{(W + 1 - N_W) {c_dn_q[i][2][N_W-1]}}, c_dn_q[i][2]};
+        default: f[i] = c_dz_q[i];
+      endcase
+      g[i] = is_line ? c_dx_q[i] : c_dy_q[i];
+      if (is_edge) begin
+        f[i] = i == 0 ? {{(W - 7) {1'b1}}, ~edge_u} : {{(W - 7) {1'b0}}, edge_t};
+        g[i] = i == 0 ? edge_dx : edge_dy;
+      end
+      if (face) {g[i], f[i]} = {dy_q[i], dx_q[i]};
     end
   end
-  logic first, shift, minus;
-  assign first = now == parts;
-  assign shift = !now[0] && (parts[0] || !now[1]);
-  assign minus = !face && !is_edge && (c_minus_q ^ is_line);
+  always_ff @(posedge clk_i) begin
+    {f_q, g_q, now_q}      <= {f, g, now};
+    {f_wide_q, g_wide_q}   <= parts;
+    sum_first_q            <= now == parts;
+    shift_q                <= !now[0] && (parts[0] || !now[1]);
+    minus_sum_q            <= !face && !is_edge && (c_minus_q ^ is_line);
+  end
+  always_comb begin
+    for (int i = 0; i < 2; i++) begin
+      f_part[i] = part(f_q[i], now_q[1], f_wide_q);
+      g_part[i] = part(g_q[i], now_q[0], g_wide_q);
+    end
+  end
   logic signed [shade_pkg::AREA_W:0] sum;
   shade_cross u_cross (
-    .clk_i, .first_i(first), .shift_i(shift), .minus_i(minus), .p_i(f_part[0]), .q_i(g_part[1]), .s_i(f_part[1]),
-    .t_i(g_part[0]), .sum_o(sum)
+    .clk_i, .first_i(sum_first_q), .shift_i(shift_q), .minus_i(minus_sum_q), .p_i(f_part[0]), .q_i(g_part[1]),
+    .s_i(f_part[1]), .t_i(g_part[0]), .sum_o(sum)
   );
 
   // ---- what a sum is, when it is there ---------------------------------------------------------------------------------------
-  logic area_now, edge_now, pair_now, line_now, depth_now, begin_now;
+  logic area_now, edge_now, pair_now, line_now, begin_now;
   logic [5:0] e_now;
   shade_valid #(.DEPTH(CROSS)) u_area (.clk_i, .rst_i, .valid_i(face && whole), .valid_o(area_now));
   shade_valid #(.DEPTH(CROSS)) u_edge (.clk_i, .rst_i, .valid_i(edge_step), .valid_o(edge_now));
   shade_valid #(.DEPTH(CROSS)) u_pair (.clk_i, .rst_i, .valid_i(done && !is_edge), .valid_o(pair_now));
-  shade_delay #(.WIDTH(3), .DEPTH(CROSS)) u_kind (
-    .clk_i, .d_i({is_line, is_depth, step_q == 4'(EDGES)}), .q_o({line_now, depth_now, begin_now})
+  shade_delay #(.WIDTH(2), .DEPTH(CROSS)) u_kind (
+    .clk_i, .d_i({is_line, step_q == 4'(EDGES)}), .q_o({line_now, begin_now})
   );
-  shade_delay #(.WIDTH(6), .DEPTH(CROSS)) u_e (.clk_i, .d_i(c_e_q), .q_o(e_now));
+  shade_delay #(.WIDTH(6), .DEPTH(CROSS)) u_e (
+    .clk_i, .d_i(is_depth ? c_e_q + 6'(shade_pkg::DEPTH_DOWN) : c_e_q), .q_o(e_now)
+  );
 
-  // ---- the area: what becomes of the triangle -----------------------------------------------------------------------------------
-  logic good, ask_q, zero, back, out;
+  // ---- the area: what becomes of the triangle -------------------------------------------------------------------------
+  logic good, zero_q, negative_q, back_q, out_q, area_q1, back;
   logic [shade_pkg::AREA_W-1:0] area_q;
   logic [shade_pkg::RECIPROCAL_F-1:0] r, r_q;
   logic [2:0] wait_q;
-  assign zero = sum == '0;
-  assign back = (cull_i == shade_pkg::CULL_W'(shade_pkg::CULL_BACK) && !sum[shade_pkg::AREA_W])
-                || (cull_i == shade_pkg::CULL_W'(shade_pkg::CULL_FRONT) && sum[shade_pkg::AREA_W]);
-  assign out  = $signed(high_q) <= $signed(low_q) || $signed(bottom_q) <= $signed(top_q);
-  assign good = area_now && !zero && !back && !out;
+  assign back = sum[shade_pkg::AREA_W] ? cull_i == shade_pkg::CULL_W'(shade_pkg::CULL_FRONT)
+                                       : cull_i == shade_pkg::CULL_W'(shade_pkg::CULL_BACK);
+  assign good = area_q1 && !zero_q && !back_q && !out_q;
+  assign drop = area_q1 && (zero_q || back_q || out_q);
   always_ff @(posedge clk_i) begin
-    error_area_o <= area_now && zero;
-    culled_o     <= area_now && !zero && back;
-    empty_o      <= area_now && !zero && !back && out;
-    ask_q        <= good;
+    area_q1      <= area_now;
+    zero_q       <= sum == '0;
+    back_q       <= back;
+    out_q        <= $signed(high_q) <= $signed(low_q) || $signed(bottom_q) <= $signed(top_q);
+    negative_q   <= sum[shade_pkg::AREA_W];
     area_q       <= sum[shade_pkg::AREA_W] ? -sum[shade_pkg::AREA_W-1:0] : sum[shade_pkg::AREA_W-1:0];
-    if (area_now) minus_q <= sum[shade_pkg::AREA_W];
-    {known_q, wait_q} <= start ? 4'd0 : {known_q | wait_q[2], wait_q[1:0], ask_q};
-    if (rst_i) {error_area_o, culled_o, empty_o, ask_q, known_q, wait_q} <= '0;
+    error_area_o <= area_q1 && zero_q;
+    culled_o     <= area_q1 && !zero_q && back_q;
+    empty_o      <= area_q1 && !zero_q && !back_q && out_q;
+    if (area_q1) minus_q <= negative_q;
+    {known_q, wait_q} <= start ? 4'd0 : {known_q | wait_q[2], wait_q[1:0], good};
+    if (rst_i) {area_q1, error_area_o, culled_o, empty_o, known_q, wait_q} <= '0;
   end
-  shade_reciprocal u_reciprocal (.clk_i, .start_i(ask_q), .a_i(area_q), .e_o(e), .r_o(r));
+  shade_reciprocal u_reciprocal (.clk_i, .start_i(good), .a_i(area_q), .e_o(e), .r_o(r));
 
   // ---- edges and increments -----------------------------------------------------------------------------------------
   localparam int SHAPE_W = $bits(edge_o) - shade_pkg::REST_W;
@@ -218,7 +239,7 @@ module shade_setup (
     if (begin_q2) r_q <= r;
   end
   shade_gradient u_gradient (
-    .clk_i, .rst_i, .valid_i(pair_now), .line_i(line_now), .depth_i(depth_now), .sum_i(sum), .e_i(e_now), .r_i(r_q),
+    .clk_i, .rst_i, .valid_i(pair_now), .line_i(line_now), .sum_i(sum), .down_i(e_now), .r_i(r_q),
     .valid_o(pair_valid_o), .pair_o
   );
 

@@ -123,16 +123,15 @@ module shade_vertices (
 
   // ---- the box of all pixels that may be covered: a column or line whose centre is at or behind a vertex ----------------
   logic [W:0] x_up, y_up;
-  logic [L_W-1:0] column, line;
-  assign x_up   = {x_q[W-1], x_q} + (W + 1)'(HALF - 1);
-  assign y_up   = {y_q[W-1], y_q} + (W + 1)'(HALF - 1);
-  assign column = x_up[W:shade_pkg::SUBPIXEL_F];
-  assign line   = y_up[W:shade_pkg::SUBPIXEL_F];
+  logic [L_W-1:0] column_q, line_q;
+  assign x_up = {word[0][W-1], word[0][W-1:0]} + (W + 1)'(HALF - 1);
+  assign y_up = {word[1][W-1], word[1][W-1:0]} + (W + 1)'(HALF - 1);
   always_ff @(posedge clk_i) begin
-    if (move && (index_q == 2'd0 || $signed(line) < $signed(box_o[3]))) box_o[3] <= line;
-    if (move && (index_q == 2'd0 || $signed(line) > $signed(box_o[2]))) box_o[2] <= line;
-    if (move && (index_q == 2'd0 || $signed(column) < $signed(box_o[1]))) box_o[1] <= column;
-    if (move && (index_q == 2'd0 || $signed(column) > $signed(box_o[0]))) box_o[0] <= column;
+    if (take) {line_q, column_q} <= {y_up[W:shade_pkg::SUBPIXEL_F], x_up[W:shade_pkg::SUBPIXEL_F]};
+    if (move && (index_q == 2'd0 || $signed(line_q) < $signed(box_o[3]))) box_o[3] <= line_q;
+    if (move && (index_q == 2'd0 || $signed(line_q) > $signed(box_o[2]))) box_o[2] <= line_q;
+    if (move && (index_q == 2'd0 || $signed(column_q) < $signed(box_o[1]))) box_o[1] <= column_q;
+    if (move && (index_q == 2'd0 || $signed(column_q) > $signed(box_o[0]))) box_o[0] <= column_q;
   end
   logic unused_low;
   assign unused_low = ^{x_up[shade_pkg::SUBPIXEL_F-1:0], y_up[shade_pkg::SUBPIXEL_F-1:0]};

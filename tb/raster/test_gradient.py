@@ -21,14 +21,14 @@ def vectors(rng: np.random.Generator) -> dict[str, np.ndarray]:
 
 
 def test_every_bit() -> None:
-    """One sum a clock, e with it, r three clocks later."""
+    """One sum a clock, its shift with it, r three clocks later."""
     v = vectors(np.random.default_rng(SEED))
     r, e = reciprocal(v["area"])
     value, wide = gradient(v["sum"], r, e, v["depth"])
     wide = np.repeat(wide.reshape(-1, 2).max(axis=1), 2)
     value = np.where(wide, 0, value).reshape(-1, 2)
     line = np.arange(2 * PAIRS) % 2
-    inputs = {"sum_i": v["sum"], "line_i": line, "depth_i": v["depth"], "e_i": e}
+    inputs = {"sum_i": v["sum"], "line_i": line, "down_i": e + k.DEPTH_DOWN * v["depth"]}
     inputs = {name: np.r_[part, part[-3:]] for name, part in inputs.items()}
     inputs["r_i"] = np.r_[r[:3], r]  # it is taken three clocks behind its sum
     run = sim.load("shade_gradient").run(**inputs, seed=SEED)

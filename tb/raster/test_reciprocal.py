@@ -28,7 +28,7 @@ def test_error_of_every_mantissa() -> None:
 
 @checked()
 async def values(bench: Bench) -> None:
-    """Numbers of every length, back to back and with pauses: e after 4 clocks, r after 13, which hold."""
+    """Numbers of every length, back to back and with pauses: e after 4 clocks, r after 14, which hold."""
     lengths = bench.rng.integers(0, BITS, 200)
     numbers = [int(bench.rng.integers(1 << n, 2 << n)) for n in lengths] + [1, (1 << BITS) - 1, 1 << BITS - 1]
     for a in numbers:

@@ -8,6 +8,8 @@ from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import raster as golden
 from polyshade.golden.types import SPAN, pack
+from polyshade.sim import frame
+from polyshade.sim.errors import UserError
 from polyshade.sim.scan import scan
 from polyshade.sim.scene.camera import Camera
 from polyshade.sim.scene.mesh import load_mesh
@@ -139,7 +141,7 @@ def test_meshes(mesh: str, subdivide: int, size: int, projection: str) -> None:
 
 @pytest.mark.parametrize(("size", "rate"), [(1024, 0.95), (512, 0.8)])
 def test_rate_on_the_head(size: int, rate: float) -> None:
-    """One lane that takes a pixel a clock, with room for 16 spans in front of it, is kept busy."""
+    """A lane that takes a pixel a clock is kept busy, where spans may wait in front of it."""
     whole = load_mesh("head", 0)
     screen = Camera(size=size).project(whole)
     made = scan(screen, whole.faces, size, scan_convert(screen, whole.faces, size))
@@ -166,3 +168,18 @@ def test_a_triangle_alone_equals_one_in_a_stream() -> None:
     v = mixture(rng, 20)
     view = golden.View(128, 128, k.CULL_NONE)
     same(join([golden.take(v, [row, row]) for row in range(len(v))]), view)
+
+
+def test_a_frame_by_vertices() -> None:
+    """The core shades what shade_spans scanned: 0 mismatches; steep triangles, constant here, set the error."""
+    told = frame.render(frame.Settings(camera=Camera(size=96), scan="rtl")).report
+    assert (told["scan"], told["mismatches"], told["coverage_mismatches"], told["depth_mismatches"]) == ("rtl", 0, 0, 0)
+    assert told["nmse"] < 1e-6
+
+
+def test_refused_before_the_work() -> None:
+    """Vertices out of range, and variants that need a cosine: one line each."""
+    with pytest.raises(UserError, match="32768 pixels away or more"):
+        frame.render(frame.Settings(camera=Camera(size=4096, zoom=50.0), scan="rtl"))
+    with pytest.raises(UserError, match="no cosines"):
+        frame.Settings(path="normals", variant="V1", scan="rtl")

@@ -1,12 +1,13 @@
 // shade_patch_lane: the pixels of a piece of a line, two additions a channel each.
 //
 //   piece_i     {specular d2, d1, I, diffuse d2, d1, I, count - 1, column, line, tag}: I S5.22, its step and the step's step
-//   ready_o     the next piece may come while one is drawn: none waits between them
+//   ready_o     the piece is taken, with the last pixel of the one before at the earliest
 //   m_axis_*    tdata = {specular, diffuse}, U0.16; tuser = {line, column, tag}; tlast = the piece's last pixel
 //
 //   pixel = I, floor, clamped to [0, 1 - 2^-16]: half an ulp is in I;   I += d1, d1 += d2        modulo 2^PATCH_VALUE_W
 //
-// A pixel a clock, no bubble between pieces, as long as the consumer keeps up: 2^4 pixels wait for it. Latency 6 clocks.
+// A pixel a clock, no bubble between pieces, as long as the consumer keeps up: 2^9 pixels wait for it, in
+// block RAM. Latency 6 clocks.
 // Example: I = 1/4, d1 = 1/4, d2 = 0, 3 pixels -> 1/4, 1/2, 3/4.
 module shade_patch_lane (
   input  logic                                 clk_i,
@@ -25,25 +26,18 @@ module shade_patch_lane (
   localparam int PLACE_W = shade_pkg::PLACE_W;
   localparam int TAG_W = shade_pkg::TAG_W;
   localparam int LOG2 = shade_pkg::PATCH_LOG2_MAX;
-  localparam int FIFO_LOG2 = 4;
+  localparam int FIFO_LOG2 = shade_pkg::PATCH_FIFO_LOG2;
 
-  // ---- the next piece, and the one at hand ---------------------------------------------------------------------------------------
-  logic [shade_pkg::PATCH_PIECE_W-1:0] next_q;
-  logic next_valid_q, load, issue, first_q, last_q, credit;
+  // ---- the piece at hand ---------------------------------------------------------------------------------------------------------
+  logic load, issue, first_q, last_q, credit;
   logic [LOG2-1:0] more;
   logic [PLACE_W-1:0] column, line, line_q, column_q;
   logic [TAG_W-1:0] tag, tag_q;
   logic [2*3*VALUE_W-1:0] values;
-  assign {values, more, column, line, tag} = next_q;
-  assign ready_o = !next_valid_q || load;
-  always_ff @(posedge clk_i) begin
-    if (ready_o) next_q <= piece_i;
-    next_valid_q <= ready_o ? valid_i : 1'b1;
-    if (rst_i) next_valid_q <= 1'b0;
-  end
+  assign {values, more, column, line, tag} = piece_i;
   shade_walk #(.COUNT_W(LOG2 + 1), .ERROR_W(1), .CREDIT_LOG2(FIFO_LOG2)) u_walk (
-    .clk_i, .rst_i, .valid_i(next_valid_q), .ready_o(load), .count_i((LOG2 + 1)'(more) + (LOG2 + 1)'(1)), .error_i(1'b0),
-    .credit_i(credit), .load_o(), .issue_o(issue), .first_o(first_q), .last_o(last_q), .error_o(), .error_count_o()
+    .clk_i, .rst_i, .valid_i, .ready_o, .count_i((LOG2 + 1)'(more) + (LOG2 + 1)'(1)), .error_i(1'b0),
+    .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first_q), .last_o(last_q), .error_o(), .error_count_o()
   );
 
   // ---- two additions a channel ---------------------------------------------------------------------------------------------------
@@ -54,7 +48,7 @@ module shade_patch_lane (
     logic signed [NEAR_W-1:0] near;
     assign {d2, d1, value} = values[c*3*VALUE_W+:3*VALUE_W];
     always_ff @(posedge clk_i) begin
-      if (next_valid_q && load) {value_q, d1_q, d2_q} <= {value, d1, d2};
+      if (load) {value_q, d1_q, d2_q} <= {value, d1, d2};
       else if (issue) begin
         value_q <= value_q + d1_q;
         d1_q    <= d1_q + d2_q;
@@ -67,13 +61,13 @@ module shade_patch_lane (
   logic valid_q;
   logic [shade_pkg::PATCH_USER_W:0] user_q;
   always_ff @(posedge clk_i) begin
-    if (next_valid_q && load) {line_q, column_q, tag_q} <= {line, column, tag};
+    if (load) {line_q, column_q, tag_q} <= {line, column, tag};
     else if (issue) column_q <= column_q + PLACE_W'(1);
     pixel_q <= pixel;
     user_q  <= {last_q, line_q, column_q, tag_q};
     valid_q <= issue && !rst_i;
   end
-  shade_fifo #(.WIDTH(2 * PIXEL_W + shade_pkg::PATCH_USER_W + 1), .LOG2(FIFO_LOG2)) u_pixels (
+  shade_fifo #(.WIDTH(2 * PIXEL_W + shade_pkg::PATCH_USER_W + 1), .LOG2(FIFO_LOG2), .BLOCK(1)) u_pixels (
     .clk_i, .rst_i, .valid_i(valid_q), .data_i({user_q, pixel_q}), .valid_o(m_axis_pixel_tvalid),
     .ready_i(m_axis_pixel_tready), .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser, m_axis_pixel_tdata}), .taken_o(credit)
   );

@@ -10,7 +10,7 @@
 //   columns_o, lines_o    of the triangle
 //
 // Gx and Gy are mantissas times 2^-exp. Products are cut to 18 fraction bits: a bit of columns, lines, left a clock, exp + 2 of
-// them. About 12 clocks and the larger exp. No multiplier. Source: P4's constant increment. Example: N = H, Gx = Gy = 0 -> 0, 0, 0.
+// them. About 12 clocks and the larger exp, the next one begins 5 clocks earlier. No multiplier. Source: P4's constant increment. Example: N = H, Gx = Gy = 0 -> 0, 0, 0.
 module shade_patch_way (
   input  logic                                           clk_i,
   input  logic                                           rst_i,
@@ -39,11 +39,15 @@ module shade_patch_way (
   localparam int SUM_W = G_W + UP + 3;  // (sum + mantissa 2^(UP + 2)) / 2 stays below the mantissa
   localparam int W = shade_pkg::PATCH_PLAN_F + 6;
 
-  typedef enum logic [3:0] {IDLE, TIMES, SUM, CORNER, LESS, NORM1, NORM2, NORM3, AWAY, FAR} state_t;
+  typedef enum logic [2:0] {IDLE, TIMES, SUM, CORNER, LESS} state_t;
   state_t state_q;
   logic put, ends;
-  assign put    = state_q == IDLE && valid_i && !done_o;
+  logic [4:0] tail_q;  // clocks since LESS: the length of the way to H, half of the box
+  assign put    = state_q == IDLE && valid_i;
   assign pass_o = state_q == CORNER;
+
+  logic [shade_pkg::COUNT_W-1:0] wide_all_q, high_all_q;
+  logic [WAY_W-1:0] a_way_q, b_way_q;
 
   // ---- columns Gx, left Gx, lines Gy: a bit and a halving a clock, exp + 2 times ------------------------------------------------------
   logic [EXP_W:0] x_q, y_q, x_all_q, y_all_q;  // bits to come, of all
@@ -57,7 +61,7 @@ module shade_patch_way (
   assign ends = !x_on && !y_on;
   always_ff @(posedge clk_i) begin
     if (put) begin
-      {columns_o, lines_o} <= {triangle_i.columns, triangle_i.lines};
+      {wide_all_q, high_all_q} <= {triangle_i.columns, triangle_i.lines};
       {columns_q, lines_q, left_q} <= {triangle_i.columns, triangle_i.lines, COUNT_W'(triangle_i.left)};
       x_q     <= x_all;
       y_q     <= y_all;
@@ -123,41 +127,45 @@ module shade_patch_way (
     which_q3 <= which_q2;
     if (which_q3[0]) begin
       a_q      <= (WAY_W + 3)'(length) << (UP + 2);
-      a_o      <= WAY_W'(length) << UP;
+      a_way_q      <= WAY_W'(length) << UP;
       a_sum_q  <= '0;
-      wide_q   <= columns_o;
+      wide_q   <= wide_all_q;
       a_left_q <= x_all_q;
     end else if (a_left_q != '0) begin
-      if (a_left_q > (EXP_W + 1)'(2)) a_o <= a_o >> 1;
+      if (a_left_q > (EXP_W + 1)'(2)) a_way_q <= a_way_q >> 1;
       a_sum_q  <= (a_sum_q + (wide_q[0] ? a_q : '0)) >> 1;
       wide_q   <= wide_q >> 1;
       a_left_q <= a_left_q - (EXP_W + 1)'(1);
     end
     if (which_q3[1]) begin
       b_q      <= (WAY_W + 3)'(length) << (UP + 2);
-      b_o      <= WAY_W'(length) << UP;
+      b_way_q      <= WAY_W'(length) << UP;
       b_sum_q  <= '0;
-      high_q   <= lines_o;
+      high_q   <= high_all_q;
       b_left_q <= y_all_q;
     end else if (b_left_q != '0) begin
-      if (b_left_q > (EXP_W + 1)'(2)) b_o <= b_o >> 1;
+      if (b_left_q > (EXP_W + 1)'(2)) b_way_q <= b_way_q >> 1;
       b_sum_q  <= (b_sum_q + (high_q[0] ? b_q : '0)) >> 1;
       high_q   <= high_q >> 1;
       b_left_q <= b_left_q - (EXP_W + 1)'(1);
     end
     if (which_q3[2]) away_q <= length;
-    if (state_q == FAR) far_o <= $signed(FAR_W'(away_q)) - $signed(FAR_W'(sum >> 1));
+    if (tail_q[4]) {a_o, b_o} <= {a_way_q, b_way_q};
+    if (tail_q[4]) far_o <= $signed(FAR_W'(away_q)) - $signed(FAR_W'(sum >> 1));
   end
   always_ff @(posedge clk_i) begin
     case (state_q)
       IDLE:    if (put) state_q <= TIMES;
-      TIMES:   if (ends) state_q <= SUM;
-      FAR:     state_q <= IDLE;
-      default: state_q <= state_t'(state_q + 4'd1);
+      TIMES:   if (ends && !done_o && tail_q == '0) state_q <= SUM;  // the one before has been taken
+      LESS:    state_q <= IDLE;
+      default: state_q <= state_t'(state_q + 3'd1);
     endcase
-    done_o <= state_q == FAR || (done_o && !take_i);
+    tail_q <= {tail_q[3:0], state_q == LESS};
+    if (state_q == LESS) {columns_o, lines_o} <= {wide_all_q, high_all_q};
+    done_o <= tail_q[4] || (done_o && !take_i);
     if (rst_i) begin
       state_q <= IDLE;
+      tail_q  <= '0;
       done_o  <= 1'b0;
     end
   end

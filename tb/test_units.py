@@ -19,19 +19,35 @@ CASES = cases()
 VECTORS = 10_000_000 if FULL else 500_000
 
 
+def ranked(cases: list[Case], *by: str) -> Iterator[tuple[Case, int, int]]:
+    """Cases with the number of their parameter point among those that agree in ``by``, and how many these are."""
+    points: dict[tuple, list[Point]] = {}
+    for case in cases:
+        group = points.setdefault(tuple(getattr(case, name) for name in by), [])
+        if case.parameters not in group:
+            group.append(case.parameters)
+    for case in cases:
+        group = points[tuple(getattr(case, name) for name in by)]
+        yield case, group.index(case.parameters), len(group)
+
+
+def of_all() -> Iterator[tuple]:
+    """Every case; points between the second and the last of a module in a form are left to ``make test-all``."""
+    for case, number, count in ranked(CASES, "module", "form"):
+        yield pytest.param(case, id=str(case), marks=pytest.mark.full if 1 < number < count - 1 else ())
+
+
 def at_points() -> Iterator[tuple]:
     """Every module at every point of its cases; those between the first and the last are left to ``make test-all``."""
-    found: dict[str, dict[str, Point]] = {}
-    for case in CASES:
-        if not case.ordered:
-            found.setdefault(case.module, {})[label(case.module, case.parameters)] = case.parameters
-    for module, points in found.items():
-        for number, (name, point) in enumerate(points.items()):
-            inner = 0 < number < len(points) - 1
-            yield pytest.param(module, point, id=name, marks=pytest.mark.full if inner else ())
+    found = {}
+    for case, number, count in ranked([case for case in CASES if not case.ordered], "module"):
+        marks = pytest.mark.full if 0 < number < count - 1 else ()
+        name = label(case.module, case.parameters)
+        found[name] = pytest.param(case.module, case.parameters, id=name, marks=marks)
+    yield from found.values()
 
 
-@pytest.mark.parametrize("case", CASES, ids=str)
+@pytest.mark.parametrize("case", [*of_all()])
 def test_numpy(case: Case) -> None:
     """No vector differs, in any bit or clock; no error is beyond its bound."""
     wanted = VECTORS if case.form == "refined" else max(VECTORS // 10, 100_000)

@@ -9,7 +9,7 @@
 //   R = radius times 2 for each of far >= reach, 3/2 reach, 7/4 reach; at most PATCH_RADIUS
 //   a 2^(kx-1) + b 2^(ky-1), the smaller halved, <= R      the side with the shorter way grows first, then the other
 //
-// So kappa = n (1 - cos) is weighed by the light, by shifts and adders. 5 clocks, one more for each doubling.
+// So kappa = n (1 - cos) is weighed by the light, by shifts and adders. 4 clocks for at most 4 x 4 pixels, else 8, and 4 for each doubling.
 // Source: P1's adaptive choice. Example: a = b = 0, 100 x 100 pixels -> kx = ky = 4.
 module shade_patch_plan (
   input  logic                                           clk_i,
@@ -34,7 +34,7 @@ module shade_patch_plan (
   localparam logic [2:0] MIN = 3'(shade_pkg::PATCH_LOG2_MIN);
   localparam logic [2:0] MAX = 3'(shade_pkg::PATCH_LOG2_MAX);
 
-  typedef enum logic [1:0] {IDLE, SIZE, FLAT, GROW} state_t;
+  typedef enum logic [2:0] {IDLE, SIZE, FLAT, FIT, WIDE, HIGH, WAIT, GROW} state_t;
   state_t state_q;
 
   // ---- radius ------------------------------------------------------------------------------------------------------------------
@@ -49,26 +49,28 @@ module shade_patch_plan (
   assign twice  = {reach, 1'b0} - (REACH_W + 1)'(reach >> 2);
   assign radius = R_W'(radius_i) << passes_q;
   always_ff @(posedge clk_i) begin
-    passes_q <= 2'(far_i >= $signed(FAR_W'(reach))) + 2'(far_i >= $signed(FAR_W'(once))) +
+    if (state_q == IDLE) passes_q <= 2'(far_i >= $signed(FAR_W'(reach))) + 2'(far_i >= $signed(FAR_W'(once))) +
                 2'(far_i >= $signed(FAR_W'(twice)));
     radius_q <= radius > R_W'(shade_pkg::PATCH_RADIUS) ? R_W'(shade_pkg::PATCH_RADIUS) : radius;
   end
 
-  // ---- sizes -------------------------------------------------------------------------------------------------------------------
-  function automatic logic fits(input logic [A_W:0] a, input logic [A_W:0] b, input logic [R_W-1:0] r);
-    logic [A_W:0] most, least;
-    most  = a > b ? a : b;
-    least = a > b ? b : a;
-    fits  = (A_W + 2)'(most) + (A_W + 2)'(least >> 1) <= (A_W + 2)'({r, {UP{1'b0}}});
-  endfunction
+  // ---- sizes: one comparison of most + least / 2 <= R in three clocks, for a box twice as wide, then for one twice as high -----------
   logic [A_W-1:0] a_q, b_q;
-  logic wide_fits, may_x, may_y, grows_x, grows_y;
-  assign wide_fits = fits({a_q, 1'b0}, {1'b0, b_q}, radius_q);
-  assign may_x     = wide_fits && kx_o < MAX && columns_i > COUNT_W'(1) << kx_o;
-  assign may_y     = fits({1'b0, a_q}, {b_q, 1'b0}, radius_q) && ky_o < MAX && lines_i > COUNT_W'(1) << ky_o;
-  assign grows_x   = may_x && (a_q <= b_q || !may_y);
-  assign grows_y   = may_y && !grows_x;
+  logic [A_W:0] wide, high, most_q, least_q, sum_q;
+  logic fits, wide_fits_q, may_x_q, may_y_q, grows_x, grows_y, more;
+  assign wide    = state_q == HIGH ? {1'b0, a_q} : {a_q, 1'b0};
+  assign high    = state_q == HIGH ? {b_q, 1'b0} : {1'b0, b_q};
+  assign fits    = sum_q <= (A_W + 1)'({radius_q, {UP{1'b0}}});
+  assign more    = (kx_o < MAX && may_x_q) || (ky_o < MAX && may_y_q);
+  assign grows_x = wide_fits_q && may_x_q && (a_q <= b_q || !(fits && may_y_q));
+  assign grows_y = fits && may_y_q && !grows_x;
   always_ff @(posedge clk_i) begin
+    most_q  <= wide > high ? wide : high;
+    least_q <= wide > high ? high : wide;
+    sum_q   <= most_q + (least_q >> 1);  // what overflows is not reached: a, b < 2^A_W / 2
+    may_x_q <= kx_o < MAX && columns_i > COUNT_W'(1) << kx_o;
+    may_y_q <= ky_o < MAX && lines_i > COUNT_W'(1) << ky_o;
+    done_o  <= 1'b0;
     case (state_q)
       IDLE: begin
         a_q  <= A_W'(a_i);
@@ -77,21 +79,29 @@ module shade_patch_plan (
         ky_o <= start_i ? MIN : ky_o;
         if (start_i) state_q <= SIZE;
       end
-      SIZE: state_q <= FLAT;
-      FLAT: begin
+      SIZE:  state_q <= FLAT;
+      FLAT:  state_q <= FIT;
+      FIT: begin
         a_q      <= a_q << 1;
-        direct_o <= !wide_fits;
-        state_q  <= GROW;
+        direct_o <= !fits;
+        done_o   <= !more;
+        state_q  <= more ? WIDE : IDLE;
+      end
+      WIDE:  state_q <= HIGH;
+      HIGH:  state_q <= WAIT;
+      WAIT: begin
+        wide_fits_q <= fits;
+        state_q     <= GROW;
       end
       GROW: begin
         if (grows_x) a_q <= a_q << 1;
         if (grows_y) b_q <= b_q << 1;
-        kx_o <= kx_o + 3'(grows_x);
-        ky_o <= ky_o + 3'(grows_y);
-        if (!grows_x && !grows_y) state_q <= IDLE;
+        kx_o    <= kx_o + 3'(grows_x);
+        ky_o    <= ky_o + 3'(grows_y);
+        done_o  <= !grows_x && !grows_y;
+        state_q <= grows_x || grows_y ? WIDE : IDLE;
       end
     endcase
-    done_o <= state_q == GROW && !grows_x && !grows_y;
     if (rst_i) begin
       state_q <= IDLE;
       done_o  <= 1'b0;

@@ -6,9 +6,9 @@
 //   box_o     {end, direct, deep, pixels, row, column}   a box that has pixels, the last of them in line deep. direct: they are lit one by one, because of
 //             direct_i or as a box of 4 x 4 with at most PATCH_SMALL of them; pixels: which, line by line, in a box of 4 x 4
 //             end: no box, the triangle is done
-//   room_i    stops the walk; up to four tokens and boxes still come
+//   room_i    stops the walk; up to five tokens and boxes still come
 //
-// A line of a box a clock, one more for each row, two for a triangle. Latency 2 clocks.
+// A line of a box a clock, one more for each row, two for a triangle. Latency 3 clocks.
 // Example: kx = ky = 2, a line 3 .. 5 -> boxes 0: token {3, 1}, and 1: {0, 2}; both direct.
 module shade_patch_clip (
   input  logic                               clk_i,
@@ -94,14 +94,23 @@ module shade_patch_clip (
     if (rst_i) {valid_q1, done_q1} <= 2'b00;
   end
 
-  logic [LOG2:0] width, from, to, count;
+  // first and end, limited to the box
+  logic [LOG2:0] width, from_q2, to_q2, count;
   logic [3:0] here;
+  logic valid_q2, start_q2, ends_q2, done_q2, small_q2, direct_q2;
+  logic [AT_W-1:0] row_q2, column_q2;
+  logic [LOG2-1:0] line_q2;
+  assign width = (LOG2 + 1)'(1) << kx_q1;
+  assign count = to_q2 > from_q2 ? to_q2 - from_q2 : '0;
+  always_ff @(posedge clk_i) begin
+    from_q2 <= from_q1[REL_W-1] ? '0 : from_q1 > $signed(REL_W'(width)) ? width : from_q1[LOG2:0];
+    to_q2   <= to_q1[REL_W-1] ? '0 : to_q1 > $signed(REL_W'(width)) ? width : to_q1[LOG2:0];
+    {valid_q2, done_q2} <= rst_i ? 2'b00 : {valid_q1, done_q1};
+    {start_q2, ends_q2, small_q2, direct_q2} <= {start_q1, ends_q1, small_q1, direct_q1};
+    {row_q2, column_q2, line_q2} <= {row_q1, column_q1, line_q1};
+  end
   always_comb begin
-    width = (LOG2 + 1)'(1) << kx_q1;
-    from  = from_q1[REL_W-1] ? '0 : from_q1 > $signed(REL_W'(width)) ? width : from_q1[LOG2:0];
-    to    = to_q1[REL_W-1] ? '0 : to_q1 > $signed(REL_W'(width)) ? width : to_q1[LOG2:0];
-    count = to > from ? to - from : '0;
-    for (int i = 0; i < 4; i++) here[i] = (LOG2 + 1)'(i) >= from && (LOG2 + 1)'(i) < to;
+    for (int i = 0; i < 4; i++) here[i] = (LOG2 + 1)'(i) >= from_q2 && (LOG2 + 1)'(i) < to_q2;
   end
 
   // ---- a box: its pixels ---------------------------------------------------------------------------------------------------
@@ -112,23 +121,23 @@ module shade_patch_clip (
   logic [15:0] pixels;
   logic direct;
   logic [LOG2-1:0] deep_q, deep;  // the last line that has pixels
-  assign deep   = start_q1 || count != '0 ? line_q1 : deep_q;
-  assign sum    = (start_q1 ? '0 : sum_q[SUM_W-1] ? SUM_W'(LIMIT) : sum_q) + SUM_W'(count);
-  assign pixels = {here, start_q1 ? 12'd0 : pixels_q};
-  assign direct = direct_q1 || (small_q1 && sum <= SUM_W'(shade_pkg::PATCH_SMALL));
+  assign deep   = start_q2 || count != '0 ? line_q2 : deep_q;
+  assign sum    = (start_q2 ? '0 : sum_q[SUM_W-1] ? SUM_W'(LIMIT) : sum_q) + SUM_W'(count);
+  assign pixels = {here, start_q2 ? 12'd0 : pixels_q};
+  assign direct = direct_q2 || (small_q2 && sum <= SUM_W'(shade_pkg::PATCH_SMALL));
   always_ff @(posedge clk_i) begin
-    if (valid_q1) begin
+    if (valid_q2) begin
       sum_q    <= sum;
       deep_q   <= deep;
       pixels_q <= pixels[15:4];
     end
-    token_valid_o <= valid_q1;
-    token_o       <= {from[LOG2-1:0], count};
-    token_keep_o  <= valid_q1 && ends_q1 && !direct && sum != '0;
-    token_drop_o  <= valid_q1 && ends_q1 && (direct || sum == '0);
-    box_valid_o   <= done_q1 || (valid_q1 && ends_q1 && sum != '0);
+    token_valid_o <= valid_q2;
+    token_o       <= {from_q2[LOG2-1:0], count};
+    token_keep_o  <= valid_q2 && ends_q2 && !direct && sum != '0;
+    token_drop_o  <= valid_q2 && ends_q2 && (direct || sum == '0);
+    box_valid_o   <= done_q2 || (valid_q2 && ends_q2 && sum != '0);
     // the first line at the bottom: lines that are not there are empty
-    box_o         <= {done_q1, direct, deep, pixels >> {~line_q1[1:0], 2'b00}, row_q1, column_q1};
+    box_o         <= {done_q2, direct, deep, pixels >> {~line_q2[1:0], 2'b00}, row_q2, column_q2};
     if (rst_i) {token_valid_o, box_valid_o} <= 2'b00;
   end
 endmodule

@@ -39,14 +39,14 @@ module shade_raster #(
   // ---- control: two edges, then lines; when one edge ends, the third one takes its place -----------------------------------
   typedef enum logic [1:0] {FIRST, SECOND, WALK, THIRD} state_e;
   state_e state_q;
-  logic third_q, some_credit_q, walk, settled, emit, finish, below;
+  logic third_q, some_credit_q, walk, settled, emit, finish, below, below_q;
   logic [1:0] over, calm, load;  // left, right
   logic [L_W-1:0] y_q;
   assign walk         = state_q == WALK;
   assign below        = $signed(y_q) >= $signed(L_W'(lines_i));
-  assign settled      = walk && over == 2'b00 && calm == 2'b11 && !below;
+  assign settled      = walk && over == 2'b00 && calm == 2'b11 && !below_q;
   assign emit         = settled && some_credit_q;
-  assign finish       = walk && third_q && (over == 2'b11 || below) && some_credit_q;
+  assign finish       = walk && third_q && (over == 2'b11 || below_q) && some_credit_q;
   assign edge_ready_o = state_q != WALK;
   assign load         = !edge_valid_i || state_q == WALK ? 2'b00 : state_q == THIRD ? over : {edge_i.right, !edge_i.right};
   always_ff @(posedge clk_i) begin
@@ -60,7 +60,7 @@ module shade_raster #(
       WALK: begin
         if (emit) y_q <= y_q + L_W'(1);
         if (finish) state_q <= FIRST;
-        else if ((over != 2'b00 || below) && !third_q) state_q <= THIRD;
+        else if ((over != 2'b00 || below_q) && !third_q) state_q <= THIRD;
       end
       default: begin
         third_q <= 1'b1;
@@ -77,9 +77,10 @@ module shade_raster #(
     logic signed [W:0] dx_q;
     logic [W-1:0] dy_q;
     logic [L_W-1:0] c_q, left_q;
+    logic over_q;
     assign moved   = r_q[R_W-1] ? r_q + R_W'(dy_q) : r_q - R_W'(dy_q);
     assign calm[i] = !r_q[R_W-1] && moved[R_W-1];
-    assign over[i] = left_q == '0;
+    assign over[i] = over_q;
     assign c[i]    = c_q;
     always_ff @(posedge clk_i) begin
       if (load[i]) begin
@@ -88,9 +89,11 @@ module shade_raster #(
         dy_q   <= edge_i.dy;
         c_q    <= edge_i.column;
         left_q <= edge_i.lines;
+        over_q <= edge_i.lines == '0;
       end else if (emit) begin
         r_q    <= r_q - R_W'(dx_q);
         left_q <= left_q - L_W'(1);
+        over_q <= left_q == L_W'(1);
       end else if (walk && !calm[i] && !over[i]) begin
         r_q <= moved;
         c_q <= r_q[R_W-1] ? c_q + L_W'(1) : c_q - L_W'(1);
@@ -111,7 +114,8 @@ module shade_raster #(
   always_ff @(posedge clk_i) begin
     c_q1      <= c;
     y_q1      <= y_q[P_W-1:0];
-    inside_q1 <= !y_q[L_W-1];
+    inside_q1 <= !y_q[L_W-1] && !below;
+    below_q   <= below;  // a clock late: one line more is walked, outside of the frame
     emit_q1   <= emit && !rst_i;
     end_q1    <= finish && !rst_i;
     some_q2   <= some && !rst_i;
@@ -140,7 +144,7 @@ module shade_raster #(
   always_ff @(posedge clk_i) begin
     back_q        <= slot_q2 && !((some_q2 && held_q) || end_q2) && !rst_i;
     credit_q      <= credit;
-    some_credit_q <= credit != '0;
+    some_credit_q <= |credit_q[CREDIT_LOG2:1];  // two, as one may be spent in this clock
     if (rst_i) begin
       credit_q      <= (CREDIT_LOG2 + 1)'(1 << CREDIT_LOG2);
       some_credit_q <= 1'b1;

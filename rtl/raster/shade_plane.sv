@@ -145,24 +145,22 @@ module shade_plane (
   end
 
   // ---- do the increments of the normal, times the largest power of two below the box's size, stay in [-2, 2)? ---------------------
-  logic [C_W-1:0] last_column, last_line, column_mask, line_mask;
+  logic [C_W-1:0] last_column, last_line, column_mask_q, line_mask_q;
+  logic look_q;
   assign last_column = columns_q - C_W'(1);
   assign last_line   = lines_q - C_W'(1);
   function automatic logic over(input logic [S_W-1:0] g, input logic [C_W-1:0] mask);
     over = 1'b0;
     for (int i = 0; i < C_W; i++) if (mask[i] && g[S_W-2-i] != g[S_W-1]) over = 1'b1;
   endfunction
-  always_comb begin
-    for (int i = 0; i < C_W; i++) begin
-      column_mask[i] = i == 0 || (last_column >> i) != '0;
-      line_mask[i]   = i == 0 || (last_line >> i) != '0;
-    end
-  end
   always_ff @(posedge clk_i) begin
-    if (start) narrow_q <= 1'b1;
-    else if (pair_taken && !last_component && (over(pair.column, column_mask) || over(pair.line, line_mask))) begin
-      narrow_q <= 1'b0;
+    for (int i = 0; i < C_W; i++) begin
+      column_mask_q[i] <= i == 0 || (last_column >> i) != '0;
+      line_mask_q[i]   <= i == 0 || (last_line >> i) != '0;
     end
+    look_q <= pair_taken && !last_component;
+    if (start) narrow_q <= 1'b1;
+    else if (look_q && (over(dcolumn_q[3], column_mask_q) || over(dline_q[3], line_mask_q))) narrow_q <= 1'b0;
   end
   assign surface_o = {narrow_q, tag_q, left_q, lines_q, columns_q, dline_q, dcolumn_q, value_q};
 endmodule

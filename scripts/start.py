@@ -1,15 +1,13 @@
 """Where the command ``polyshade`` begins: control-C ends it in one line, also while modules are imported."""
 
 import os
-import signal
-from types import FrameType
-from typing import NoReturn
+import signal  # nothing else that takes time: until main() runs control-C is answered by a traceback
 
 INTERRUPTED = 130
 """The exit status that shells expect."""
 
 
-def stop(number: int = 0, frame: FrameType | None = None) -> NoReturn:
+def stop(number: int = 0, frame: object = None) -> None:
     """One line, and no traceback of whatever was going on."""
     os.write(2, b"polyshade: interrupted\n")
     os._exit(INTERRUPTED)

@@ -162,6 +162,33 @@ CULL_NONE = 0  # both sides are drawn
 CULL_BACK = 1  # triangles that turn clockwise on the screen are left out
 CULL_FRONT = 2  # those that turn counter-clockwise
 CULL_W = 2
+# ---- direct form -----------------------------------------------------------------------------------------------
+DIRECT_A_F = 24  # N.L, S1.24
+DIRECT_A_W = 26
+DIRECT_H_F = 28  # N.H, S1.28
+DIRECT_H_W = 30
+DIRECT_P_F = 36  # N.N, U1.36, modulo 2: after 64 steps right to 2^-25, after 1024 to 2^-17
+DIRECT_P_W = 37
+DIRECT_DIFFUSE_F = 17  # fraction bits of N.L, N.N, 1 - N.H that are used at the pixel
+DIRECT_P_OUT_F = 25
+DIRECT_X_F = 24
+DIRECT_RHO_F = 17  # of rho and 1 - N.H in products
+RHO_F = 25  # rho = 1/sqrt(P) - 1, S0.25
+RHO_INDEX_W = 7  # table: segments of 1/128 of P
+RHO_C0_W = 27
+RHO_C1_F = 15
+RHO_C2_F = 7
+RHO_C2_W = 11
+RHO_S_DROP = RHO_C2_F + DIRECT_P_OUT_F - RHO_C1_F
+CHORD_INDEX_W = 10  # table of the lobe: 1024 chords
+CHORD_FRACTION_W = 12  # where on the chord
+CHORD_SLOPE_F = 20
+CHORD_SLOPE_W = 15
+CHORD_SHIFT_W = 3
+DIRECT_STARTS_LOG2 = 6  # runs that wait, ready, for the one that is drawn: deep enough for block RAM
+DIRECT_RUNS_LOG2 = 6  # runs that wait for their triangle's coefficients
+DIRECT_FIFO_LOG2 = 6  # pixels that can be held back: more than the latency
+EXCESS_W = 10  # |H| - 1, in units of 2^-24
 
 # ---- packets (AXI4-Stream, one beat each) ----------------------------------------------------------------------
 SPAN_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
@@ -292,6 +319,9 @@ LATENCY_PATCH_LIGHT = (
     1 + LATENCY_RSQRT + 2 + LATENCY_MUL + 4 + 2 + LATENCY_MUL + 1
 )  # 1/root, rho, x, the table, a chord
 LATENCY_PATCH_LINES = 4  # two bits of X each
+LATENCY_RHO = 1 + LATENCY_MUL + 1 + LATENCY_MUL + 2  # the table, c2 d, s, s d, its rounding, rho
+LATENCY_CHORD = 2 + LATENCY_MUL + 2  # the scaled x, the table, the product, the sum, saturation
+LATENCY_DIRECT_LIGHT = LATENCY_RHO + LATENCY_MUL + 1 + LATENCY_CHORD  # rho, products, sums, the lobe
 LATENCY_PHONG = 1 + LATENCY_INCREMENT + LATENCY_NORMALIZE + LATENCY_LIGHT + 1 + LATENCY_FIFO  # span, ..., clamp, FIFO
 
 # ---- products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric ------------
@@ -313,6 +343,15 @@ ERROR_W = 3
 LINE_ERROR_METRIC = 2  # V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
 LINE_ERROR_THRESHOLD = 3  # threshold outside [0, 1]; taken as 0 or 1
 LINE_ERROR_W = 4
+
+# ---- error bits of shade_direct ----------------------------------------------------------------------------------
+DIRECT_EMPTY = 0  # a run of 0 pixels that is not its triangle's last one
+DIRECT_LONG = 1  # a run of more than 4096 pixels
+DIRECT_PACKET = 2  # a packet that ended before its first run
+DIRECT_ORDER = 3  # a run that is not below the last good one of its triangle
+DIRECT_SHORT = 4  # a pixel whose normal is shorter than 1/2
+DIRECT_LARGE = 5  # a pixel whose normal is longer than 1
+DIRECT_ERROR_W = 6
 
 # ---- what a lane tells of a node, beside and above the bits LIGHT_* --------------------------------------------------
 LANE_NORMAL_ZERO = 4  # a normal of length 0

@@ -10,9 +10,10 @@ from functools import cache
 from math import floor, log2, pi
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import contract as k
+from . import direct
 from .fixed import ONE
 from .plan import quantize_sharpness
 from .reference import light as reference
@@ -30,6 +31,7 @@ RANGES = {
     "colour": (0.0, 1.0),
     "highlight": (0.0, 1.0),
 }
+DIRECT_MODELS = ("lambert", "blinn", "schlick")  # of the direct form
 STAGES = 4  # squarings of the lobe at most
 EXACT = 1e-9  # an error of the fit that is none
 ENERGY_MARGIN = 1 / 4096  # what quantization may add to a lobe's energy, so that it never exceeds 1
@@ -329,3 +331,39 @@ def _floating(value: float) -> tuple[int, int]:
     exponent = floor(log2(value))
     mantissa = _fixed(value / 2.0**exponent, k.GAIN_F)
     return (mantissa, exponent) if mantissa < 2 << k.GAIN_F else (1 << k.GAIN_F, exponent + 1)
+
+
+def chords(material: Material, light: ArrayLike) -> direct.Lobe:
+    """The table of the direct form: specular light of lambert, blinn and schlick over x = 1 - N.H, as chords.
+
+    ``shift`` is the largest with which nothing above a quarter of an ulp is left out, and every slope fits. ValueError
+    for models whose light is no function of N.H alone.
+
+    >>> table = chords(Material(shininess=32), (0, 0, 1))
+    >>> table.shift, table.value[[0, 512]].tolist(), table.excess
+    (1, [65536, 7], 0)
+    """
+    if material.model not in DIRECT_MODELS or material.cosine:
+        allowed = ", ".join(DIRECT_MODELS)
+        raise ValueError(f"model: {material.model} is no function of N.H alone, allowed are {allowed} without N.L")
+    scale = material.scale(light) if material.model != "lambert" else 0.0
+    top = (1 << k.CHORD_SLOPE_W - 1) - 1
+
+    def at(x: NDArray) -> NDArray:
+        if material.model == "schlick":
+            c = 1 - x
+            n = material.shininess
+            return np.minimum(scale * np.maximum(c, 0) / (n - n * c + c), 1)
+        return np.minimum(scale * np.maximum(1 - x, 0) ** material.shininess, 1)
+
+    for shift in range((1 << k.CHORD_SHIFT_W) - 1, -1, -1):
+        exact = at(np.arange(1025) / 1024 / 2**shift)
+        value = np.rint(exact * ONE).astype(np.int64)
+        slope = np.rint(exact[1:] * (1 << k.CHORD_SLOPE_F)).astype(np.int64)
+        slope -= value[:-1] << k.CHORD_SLOPE_F - k.INTENSITY_F
+        if shift == 0 or (exact[-1] < 2.0**-18 and np.abs(slope).max() <= top):
+            break
+    words = light_registers(light)
+    length = sum(words[f"h{axis}"] ** 2 for axis in "xyz") ** 0.5
+    excess = round((length / ONE - 1) * 2**k.DIRECT_X_F) if length else 0
+    return direct.Lobe(value[:-1], slope.clip(-top - 1, top), shift, excess)

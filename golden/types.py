@@ -360,6 +360,87 @@ SURFACE = Struct(
         Field("narrow", 1, "the increments of the normal fit a packet TRIANGLE"),
     ),
 )
+LOBE = Struct(
+    "lobe_t",
+    "the head of a packet that fills the table of the lobe; entries follow, a beat each, from the first one on",
+    (
+        Field("shift", k.CHORD_SHIFT_W, "the table covers x = 1 - cos from 0 to 2^-shift"),
+        _unused(16 - k.CHORD_SHIFT_W),
+        Field("excess", k.EXCESS_W, "|H| - 1 of the quantized H", "S-15.24"),
+        _unused(47 - 16 - k.EXCESS_W),
+        Field("lobe", 1, "1; of a triangle 0"),
+        _unused(16),
+    ),
+)
+CHORD = Struct(
+    "chord_t",
+    "an entry of the table of the lobe",
+    (
+        Field("value", k.INTENSITY_F + 1, "specular light at its x", "U1.16"),
+        Field("slope", k.CHORD_SLOPE_W, "what it grows by to the next entry", "S-6.20"),
+    ),
+)
+SCALARS = Struct(
+    "scalars_t",
+    "the scalars of a pixel, from which its light is computed",
+    (
+        Field("a", k.DIRECT_A_W, "N.L", "S1.24"),
+        Field("h", k.DIRECT_H_W, "N.H", "S1.28"),
+        Field("p", k.DIRECT_P_W, "N.N", "U1.36"),
+    ),
+)
+COEFFICIENTS = Struct(
+    "coefficients_t",
+    "the scalars of a triangle as polynomials of column and line",
+    (
+        *(Field(f"a{part}", k.DIRECT_A_W, "N.L", "S1.24") for part in ("", "_column", "_line")),
+        *(Field(f"h{part}", k.DIRECT_H_W, "N.H", "S1.28") for part in ("", "_column", "_line")),
+        Field("p", k.DIRECT_P_W, "N.N", "U1.36"),
+        Field("p_column", k.DIRECT_P_W, "what it grows by to the next column", "U1.36"),
+        Field("p_line", k.DIRECT_P_W, "what it grows by to the next line", "U1.36"),
+        Field("p_columns", k.DIRECT_P_W, "half of what p_column grows by per column", "U1.36"),
+        Field("p_lines", k.DIRECT_P_W, "half of what p_line grows by per line", "U1.36"),
+        Field("p_both", k.DIRECT_P_W, "what p_column grows by per line", "U1.36"),
+    ),
+)
+START = Struct(
+    "start_t",
+    "a run that is ready to be stepped",
+    (
+        _part("at", SCALARS, "the scalars at its first pixel"),
+        Field("p_column", k.DIRECT_P_W, "what p grows by to the next pixel", "U1.36"),
+        Field("a_column", k.DIRECT_A_W, "what a grows by per pixel", "S1.24"),
+        Field("h_column", k.DIRECT_H_W, "what h grows by per pixel", "S1.28"),
+        Field("p_columns", k.DIRECT_P_W, "half of what p_column grows by per pixel", "U1.36"),
+        Field("count", k.COUNT_W, f"pixels, 1 to {k.PIXELS_MAX}"),
+        Field("tag", k.TAG_W, "the triangle's"),
+    ),
+)
+MOVES = Struct(
+    "moves_t",
+    "how a run's first pixel is reached from that of the run before",
+    (
+        Field("lines", k.COUNT_W, "lines down, beside the one that every start makes"),
+        Field("columns", k.COUNT_W, "columns to the right, negative: to the left", "S12.0"),
+        Field("good", 1, "the run is drawn"),
+        Field("first", 1, "the triangle's first run: no moves"),
+        Field("last", 1, "the triangle's last run"),
+        Field("count", k.COUNT_W, "its pixels"),
+        Field("tag", k.TAG_W, "the triangle's"),
+    ),
+)
+WAITING = Struct(
+    "waiting_t",
+    "a run that waits for its triangle's coefficients",
+    (
+        Field("column", k.PLACE_W, "its first pixel"),
+        Field("line", k.PLACE_W, "its raster line"),
+        Field("count", k.COUNT_W, "its pixels"),
+        Field("first", 1, "the triangle's first run"),
+        Field("last", 1, "the triangle's last run"),
+        Field("tag", k.TAG_W, "the triangle's"),
+    ),
+)
 PIXEL = _vector("pixel_t", "a pixel", k.PIXEL_W, "U0.16", ("diffuse", "specular"))
 COLOURED = _vector("coloured_t", "a coloured pixel", k.PIXEL_W, "U0.16", ("red", "green", "blue"))
 
@@ -520,7 +601,8 @@ STRUCTS: dict[str, Struct] = {
     struct.name: struct
     for struct in (
         VEC, STEP, RGB, SPAN, GROWTH, TRIANGLE, RUN, OUTWARD, VERTEX, SHORT, CORNER, SIZED, EDGE, WALKED, PAIR, PLANE,
-        SURFACE, SPOT, HEAD, CHANNEL, RECORD, PIXEL, COLOURED, PLAN, PLACE, NODE,
-        INTENSITY, FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW, NODE_FLAGS, ERRORS, STATUS,
+        SURFACE, SPOT, LOBE, CHORD, SCALARS, COEFFICIENTS, START, MOVES, WAITING, HEAD, CHANNEL, RECORD, PIXEL,
+        COLOURED, PLAN, PLACE, NODE, INTENSITY, FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW,
+        NODE_FLAGS, ERRORS, STATUS,
     )
 }  # fmt: skip

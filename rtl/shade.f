@@ -93,3 +93,13 @@ surface/shade_patch_pieces.sv
 surface/shade_patch_lane.sv
 surface/shade_patch_room.sv
 surface/shade_patch.sv
+surface/shade_rho_rom.sv
+surface/shade_rho.sv
+surface/shade_chord.sv
+surface/shade_direct_light.sv
+surface/shade_direct_door.sv
+surface/shade_direct_setup.sv
+surface/shade_direct_moves.sv
+surface/shade_direct_line.sv
+surface/shade_direct_run.sv
+surface/shade_direct.sv

@@ -179,6 +179,34 @@ package shade_pkg;
   localparam int CULL_FRONT = 2;  // those that turn counter-clockwise
   localparam int CULL_W = 2;
 
+  // direct form
+  localparam int DIRECT_A_F = 24;  // N.L, S1.24
+  localparam int DIRECT_A_W = 26;
+  localparam int DIRECT_H_F = 28;  // N.H, S1.28
+  localparam int DIRECT_H_W = 30;
+  localparam int DIRECT_P_F = 36;  // N.N, U1.36, modulo 2: after 64 steps right to 2^-25, after 1024 to 2^-17
+  localparam int DIRECT_P_W = 37;
+  localparam int DIRECT_DIFFUSE_F = 17;  // fraction bits of N.L, N.N, 1 - N.H that are used at the pixel
+  localparam int DIRECT_P_OUT_F = 25;
+  localparam int DIRECT_X_F = 24;
+  localparam int DIRECT_RHO_F = 17;  // of rho and 1 - N.H in products
+  localparam int RHO_F = 25;  // rho = 1/sqrt(P) - 1, S0.25
+  localparam int RHO_INDEX_W = 7;  // table: segments of 1/128 of P
+  localparam int RHO_C0_W = 27;
+  localparam int RHO_C1_F = 15;
+  localparam int RHO_C2_F = 7;
+  localparam int RHO_C2_W = 11;
+  localparam int RHO_S_DROP = 17;
+  localparam int CHORD_INDEX_W = 10;  // table of the lobe: 1024 chords
+  localparam int CHORD_FRACTION_W = 12;  // where on the chord
+  localparam int CHORD_SLOPE_F = 20;
+  localparam int CHORD_SLOPE_W = 15;
+  localparam int CHORD_SHIFT_W = 3;
+  localparam int DIRECT_STARTS_LOG2 = 6;  // runs that wait, ready, for the one that is drawn: deep enough for block RAM
+  localparam int DIRECT_RUNS_LOG2 = 6;  // runs that wait for their triangle's coefficients
+  localparam int DIRECT_FIFO_LOG2 = 6;  // pixels that can be held back: more than the latency
+  localparam int EXCESS_W = 10;  // |H| - 1, in units of 2^-24
+
   // packets (AXI4-Stream, one beat each)
   localparam int SPAN_DATA_W = 192;  // node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
   localparam int SPAN_COUNT_LSB = 144;  // pixels of the span
@@ -302,6 +330,9 @@ package shade_pkg;
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums
   localparam int LATENCY_PATCH_LIGHT = 24;
   localparam int LATENCY_PATCH_LINES = 4;  // two bits of X each
+  localparam int LATENCY_RHO = 8;  // the table, c2 d, s, s d, its rounding, rho
+  localparam int LATENCY_CHORD = 6;  // the scaled x, the table, the product, the sum, saturation
+  localparam int LATENCY_DIRECT_LIGHT = 17;  // rho, products, sums, the lobe
   localparam int LATENCY_PHONG = 86;  // span, ..., clamp, FIFO
 
   // products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric
@@ -323,6 +354,15 @@ package shade_pkg;
   localparam int LINE_ERROR_METRIC = 2;  // V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
   localparam int LINE_ERROR_THRESHOLD = 3;  // threshold outside [0, 1]; taken as 0 or 1
   localparam int LINE_ERROR_W = 4;
+
+  // error bits of shade_direct
+  localparam int DIRECT_EMPTY = 0;  // a run of 0 pixels that is not its triangle's last one
+  localparam int DIRECT_LONG = 1;  // a run of more than 4096 pixels
+  localparam int DIRECT_PACKET = 2;  // a packet that ended before its first run
+  localparam int DIRECT_ORDER = 3;  // a run that is not below the last good one of its triangle
+  localparam int DIRECT_SHORT = 4;  // a pixel whose normal is shorter than 1/2
+  localparam int DIRECT_LARGE = 5;  // a pixel whose normal is longer than 1
+  localparam int DIRECT_ERROR_W = 6;
 
   // what a lane tells of a node, beside and above the bits LIGHT_*
   localparam int LANE_NORMAL_ZERO = 4;  // a normal of length 0
@@ -571,6 +611,77 @@ package shade_pkg;
     logic [11:0] line;
     logic [11:0] column;
   } spot_t;
+
+  // the head of a packet that fills the table of the lobe; entries follow, a beat each, from the first one on
+  typedef struct packed {
+    logic [15:0] unused_48;  // ignored
+    logic lobe;  // 1; of a triangle 0
+    logic [20:0] unused_26;  // ignored
+    logic signed [9:0] excess;  // S-15.24: |H| - 1 of the quantized H
+    logic [12:0] unused_3;  // ignored
+    logic [2:0] shift;  // the table covers x = 1 - cos from 0 to 2^-shift
+  } lobe_t;
+
+  // an entry of the table of the lobe
+  typedef struct packed {
+    logic signed [14:0] slope;  // S-6.20: what it grows by to the next entry
+    logic [16:0] value;  // U1.16: specular light at its x
+  } chord_t;
+
+  // the scalars of a pixel, from which its light is computed
+  typedef struct packed {
+    logic [36:0] p;  // U1.36: N.N
+    logic signed [29:0] h;  // S1.28: N.H
+    logic signed [25:0] a;  // S1.24: N.L
+  } scalars_t;
+
+  // the scalars of a triangle as polynomials of column and line
+  typedef struct packed {
+    logic [36:0] p_both;  // U1.36: what p_column grows by per line
+    logic [36:0] p_lines;  // U1.36: half of what p_line grows by per line
+    logic [36:0] p_columns;  // U1.36: half of what p_column grows by per column
+    logic [36:0] p_line;  // U1.36: what it grows by to the next line
+    logic [36:0] p_column;  // U1.36: what it grows by to the next column
+    logic [36:0] p;  // U1.36: N.N
+    logic signed [29:0] h_line;  // S1.28: N.H
+    logic signed [29:0] h_column;  // S1.28: N.H
+    logic signed [29:0] h;  // S1.28: N.H
+    logic signed [25:0] a_line;  // S1.24: N.L
+    logic signed [25:0] a_column;  // S1.24: N.L
+    logic signed [25:0] a;  // S1.24: N.L
+  } coefficients_t;
+
+  // a run that is ready to be stepped
+  typedef struct packed {
+    logic [15:0] tag;  // the triangle's
+    logic [12:0] count;  // pixels, 1 to 4096
+    logic [36:0] p_columns;  // U1.36: half of what p_column grows by per pixel
+    logic signed [29:0] h_column;  // S1.28: what h grows by per pixel
+    logic signed [25:0] a_column;  // S1.24: what a grows by per pixel
+    logic [36:0] p_column;  // U1.36: what p grows by to the next pixel
+    scalars_t at;  // the scalars at its first pixel
+  } start_t;
+
+  // how a run's first pixel is reached from that of the run before
+  typedef struct packed {
+    logic [15:0] tag;  // the triangle's
+    logic [12:0] count;  // its pixels
+    logic last;  // the triangle's last run
+    logic first;  // the triangle's first run: no moves
+    logic good;  // the run is drawn
+    logic signed [12:0] columns;  // S12.0: columns to the right, negative: to the left
+    logic [12:0] lines;  // lines down, beside the one that every start makes
+  } moves_t;
+
+  // a run that waits for its triangle's coefficients
+  typedef struct packed {
+    logic [15:0] tag;  // the triangle's
+    logic last;  // the triangle's last run
+    logic first;  // the triangle's first run
+    logic [12:0] count;  // its pixels
+    logic [11:0] line;  // its raster line
+    logic [11:0] column;  // its first pixel
+  } waiting_t;
 
   // a record, without the light at its nodes
   typedef struct packed {

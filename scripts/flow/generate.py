@@ -1,8 +1,9 @@
 """Write what the RTL takes from the golden model: ``make generate`` (``--check``: compare).
 
-``rtl/shade_pkg.sv`` from ``golden/contract.py``, ``golden/registers.py`` and ``golden/types.py``, the table
-``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py``, ``docs/registers.md`` from ``golden/registers.py``,
-``docs/interface.md`` from ``golden/packets.py`` and the contract.
+``rtl/shade_pkg.sv`` from ``golden/contract.py``, ``golden/registers.py`` and ``golden/types.py``, the tables
+``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py`` and ``rtl/surface/shade_rho_rom.sv`` from
+``golden/direct.py``, ``docs/registers.md`` from ``golden/registers.py``, ``docs/interface.md`` from
+``golden/packets.py`` and the contract.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import sys
 from pathlib import Path
 
 from polyshade.golden import contract as k
-from polyshade.golden import fixed, packets, registers, types
+from polyshade.golden import direct, fixed, packets, registers, types
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = """\
@@ -164,6 +165,40 @@ def rsqrt_rom() -> str:
     )
 
 
+RHO_HEADER = """\
+// shade_rho_rom: the table of shade_rho: 1/sqrt(P) - 1 = c0 + c1 d + c2 d^2 on segment i_i / 128 of P.
+//
+// Generated from polyshade.golden.direct.rho_rom by `make generate`: change it there.
+// row_o = {c0, c1, c2}: c0 S1.25; c1 S2.15, negative; c2 U4.7. Row 0: [1, 129/128); rows 1 to 31 are constant.
+// Block RAM or LUTs, as the tool sees fit (7,168 bits). Latency 1 clock, one row a clock.
+// Example: i = 64 -> c0 = 1/sqrt(129/256) - 1.
+"""
+
+
+def rho_rom() -> str:
+    """The text of the table's module."""
+    width = k.RHO_C0_W + k.INTENSITY_W + k.RHO_C2_W
+    table = direct.rho_rom(range(1 << k.RHO_INDEX_W)).tolist()
+    rows = [f"      {k.RHO_INDEX_W}'d{i}: row_o <= {width}'h{row:x};" for i, row in enumerate(table)]
+    return "\n".join(
+        [
+            f"{RHO_HEADER}module shade_rho_rom (",
+            "  input  logic                              clk_i,",
+            "  input  logic [shade_pkg::RHO_INDEX_W-1:0] i_i,",
+            f"  output logic [{width - 1:28d}:0] row_o",
+            ");",
+            "  always_ff @(posedge clk_i) begin",
+            "    case (i_i)",
+            *rows,
+            "      default: row_o <= '0;",
+            "    endcase",
+            "  end",
+            "endmodule",
+            "",
+        ]
+    )
+
+
 MAP_HEADER = """\
 # Registers
 
@@ -269,6 +304,7 @@ GENERATED = {
     "docs/interface.md": interface,
     "rtl/shade_pkg.sv": package,
     "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom,
+    "rtl/surface/shade_rho_rom.sv": rho_rom,
     "docs/registers.md": register_map,
 }
 

@@ -75,6 +75,8 @@ POINTS: dict[str, list[Point]] = {
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
     "shade_lane": [{"EVALUATOR": 0, "FORM": 0, **SMALL}, FOLDED],
     "shade_core": [{"LANES": 4, "COLOUR": 1, **FOLDED}],
+    "shade_direct_door": [{"LOG2": 1}],
+    "shade_direct_line": [{"LOG2": 1}],
 }
 
 REFUSED: dict[str, list[Point]] = {
@@ -119,6 +121,8 @@ REFUSED: dict[str, list[Point]] = {
     "shade_starts": [{"CREDIT_LOG2": 2}],
     "shade_poly_span": [{"EVALUATOR": 2}],
     "shade_lane": [{"PATH_NORMALS": 2}, {"FOLD": 2, **SMALL}, {"FOLD": 6}],
+    "shade_direct_door": [{"LOG2": 0}],
+    "shade_direct_line": [{"LOG2": 0}],
     "shade_core": [{"LANES": 0}, {"LANES": 3}, {"COLOUR": 2}, {"DATA_W": 16}],
 }
 

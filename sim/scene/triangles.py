@@ -69,7 +69,12 @@ class Triangles:
         """Packets, beat by beat: ``s_axis_surface_tdata`` and ``_tlast``."""
         vectors = {"normal": self.normal, "dcolumn.mantissa": self.dcolumn, "dline.mantissa": self.dline}
         values = {f"{name}.{axis}": part for name, v in vectors.items() for axis, part in zip("xyz", v.T, strict=True)}
-        values |= {"dcolumn.exp": self.dcolumn_exp, "dline.exp": self.dline_exp, "tag": self.tag, "flat": self.flat}
+        values |= {
+            "dcolumn.exp": self.dcolumn_exp,
+            "dline.exp": self.dline_exp,
+            "tag": self.tag,
+            "flat": self.flat,
+        }
         values |= dict(zip(("columns", "lines", "left"), self.box.T, strict=True))
         heads = pack(TRIANGLE, values).view(np.uint64)
         runs = pack(RUN, {"column": self.column, "line": self.line, "count": self.count}).view(np.uint64)

@@ -3,7 +3,7 @@
 One file a folder of ``rtl/``, of ``light`` two; ``case`` says what is measured and makes the vectors.
 """
 
-from polyshade.sim.units import fixed, light, normal, patch, plan, poly, reflectance, stream
+from polyshade.sim.units import fixed, light, normal, patch, plan, poly, reflectance, stream, surface
 from polyshade.sim.units.case import FORMS, Case, Result
 from polyshade.sim.units.normal import unit_vectors
 from polyshade.sim.units.stream import check_pixel_normals, check_poly_span
@@ -13,4 +13,5 @@ __all__ = ["FORMS", "Case", "Result", "cases", "check_pixel_normals", "check_pol
 
 def cases() -> list[Case]:
     """All cases of all units, both forms, in the order of the data's way."""
-    return [case for part in (fixed, stream, poly, normal, plan, light, reflectance, patch) for case in part.cases()]
+    parts = (fixed, stream, poly, normal, plan, light, reflectance, patch, surface)
+    return [case for part in parts for case in part.cases()]

@@ -2,7 +2,7 @@
 //
 // s_axis_vertex: see shade_scan; m_axis_span: see shade_lines. error_o, culled_o, empty_o count what was skipped since
 // reset, each saturating at 2^16 - 1: {area, normal, range, packet}, culled triangles, those without a pixel.
-// Example: golden.raster.scan, golden.raster.lines.
+// About 53 clocks from a third vertex to the first span, a triangle in 14, a span a clock. Example: golden.raster.scan, .lines.
 module shade_spans (
   input  logic                                clk_i,
   input  logic                                rst_i,

@@ -98,7 +98,8 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 @click.option(
     "--path",
     default="poly",
-    help="poly: a polynomial along each span; normals: a unit normal every pixel; patch: one in boxes of triangles.",
+    help="poly: a polynomial along each span; normals: a unit normal every pixel; patch: one in boxes of triangles; "
+    "direct: light at every pixel from scalars, without a normal.",
 )
 @click.option(
     "--evaluator", default="fdiff", help="Of path poly: fdiff, forward differences; horner, a multiplier a step."

@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from polyshade.golden import contract
-from polyshade.golden.material import FORMS, Material, planner_registers, registers
+from polyshade.golden.material import DIRECT_MODELS, FORMS, Material, planner_registers, registers
 from polyshade.golden.plan import criterion
 from polyshade.golden.reference.light import dot
-from polyshade.sim import core, patch, tools
+from polyshade.sim import core, direct, patch, tools
 from polyshade.sim.core import quantize
 from polyshade.sim.errors import UserError
 from polyshade.sim.scan import scan
@@ -32,7 +32,12 @@ from polyshade.sim.scene.raster import Spans, expand, faces_viewer, portions, re
 from polyshade.sim.scene.triangles import Triangles
 from tqdm import tqdm
 
-PATHS = {"poly": contract.PATH_POLY, "normals": contract.PATH_NORMALS, "patch": None}  # None: no path of the core
+PATHS = {
+    "poly": contract.PATH_POLY,
+    "normals": contract.PATH_NORMALS,
+    "patch": None,
+    "direct": None,
+}  # None: no path of the core
 EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
 VARIANTS = {name.removeprefix("VARIANT_"): code for name, code in contract.constants().items() if "VARIANT_V" in name}
 VARIANTS |= {"refined": contract.VARIANT_REFINED, "exact": contract.VARIANT_EXACT}
@@ -42,6 +47,7 @@ CORE_LANES = (1, 2, 4)
 LIGHT_UNITS = {"full": {}, "folded": {"FOLD": 6, "REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}}
 FOLDED_MODELS = ("lambert", "blinn")
 PATCH_MODELS = ("lambert", "blinn")
+SURFACE_MODELS = {"patch": PATCH_MODELS, "direct": DIRECT_MODELS}  # what a path over triangles can draw
 RANGES = {"threshold": (0.0, 1.0), "degree": (1, 3), "criterion": (0.0, 1.0)}
 ONE = 1 << contract.INTENSITY_F
 SCANS = ("host", "rtl")
@@ -88,12 +94,17 @@ class Settings:
             raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
         if self.scan == "rtl" and self.path == "normals" and self.variant in ("V1", "V2"):
             raise UserError(f"--scan: rtl gives no cosines, which variant {self.variant} needs, allowed is host")
-        if self.scan == "rtl" and self.path == "patch":
+        if self.scan == "rtl" and self.path in SURFACE_MODELS:
             raise UserError("--scan: rtl is allowed with --path poly, normals")
-        if self.path == "patch" and self.material.model not in PATCH_MODELS:
-            raise UserError(f"--path: patch is allowed with --model {', '.join(PATCH_MODELS)}")
-        if self.path == "patch" and self.form != "refined":
-            raise UserError("--path: patch is allowed with --form refined")
+        models = SURFACE_MODELS.get(self.path, (self.material.model,))
+        if self.material.model not in models:
+            raise UserError(f"--path: {self.path} is allowed with --model {', '.join(models)}")
+        if self.path in SURFACE_MODELS and self.form != "refined":
+            raise UserError(f"--path: {self.path} is allowed with --form refined")
+        if self.path == "direct" and self.material.cosine:
+            raise UserError("--path: direct is allowed with --energy rows that are not modified")
+        if self.path == "direct" and self.lanes != 1:
+            raise UserError("--lanes: 1 is allowed with --path direct")
         if self.path != "patch" and self.lanes not in CORE_LANES:
             raise UserError(
                 f"--lanes: {self.lanes} is allowed with --path patch, else {', '.join(map(str, CORE_LANES))}"
@@ -282,6 +293,9 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         if settings.path == "patch":
             scan_report = {"coverage_mismatches": 0, "depth_mismatches": 0}
             drawn = patch.draw(Triangles.of(spans, passed), surface, settings.light, stage, settings.lanes)
+        elif settings.path == "direct":
+            scan_report = {"coverage_mismatches": 0, "depth_mismatches": 0}
+            drawn = direct.draw(Triangles.of(spans, passed), surface, settings.light, stage)
         else:
             if settings.scan == "rtl":
                 stage("set up and scan in the RTL")
@@ -304,6 +318,8 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
         more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.records}
         more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
+    elif settings.path == "direct":
+        more = {}
     elif settings.path == "patch":
         more = {"boxes": drawn.golden.boxes, "direct_boxes": drawn.golden.direct}
     else:

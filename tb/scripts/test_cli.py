@@ -56,6 +56,7 @@ KEYS_OF_PATH = {
     "poly": ["evaluator", "degree", "records", "criterion", "flat_spans"],
     "normals": ["variant", "threshold"],
     "patch": ["boxes", "direct_boxes"],
+    "direct": [],
 }
 KEYS_OF_FORM = {"refined": [], "paper": ["nmse_paper_lobe", "nmse_specular_paper_lobe"]}
 COUNTERS = ["pixels", "spans", "clocks", "stalls", "evaluations", "errors"]
@@ -124,7 +125,7 @@ def sane(folder: Path, hints: int = 0) -> dict:
     assert report["mismatches"] == 0
     assert report["visible_pixels"] <= pixels <= cycles * report["lanes"] or pixels == 0
     evaluations = report["light_evaluations"]
-    if report["path"] == "patch":
+    if report["path"] in frame.SURFACE_MODELS:
         assert report["counters"] == {"pixels": pixels, "errors": 0}
     else:
         assert list(report["counters"]) == COUNTERS
@@ -211,6 +212,7 @@ VIEWS = {
     "linear": ["--form", "paper", "--degree", "1"],
     "quadratic": ["--form", "paper", "--degree", "2", "--evaluator", "fdiff"],
     "normals": ["--path", "normals"],
+    "direct": ["--path", "direct", "--model", "schlick"],
     "normals_exact": ["--path", "normals", "--variant", "exact", "--model", "phong"],
     "normals_of_the_paper": ["--path", "normals", "--variant", "V5", "--threshold", "0.95"],
     "normals_of_a_dot": ["--path", "normals", "--zoom", "0.05"],

@@ -59,7 +59,7 @@ module shade_patch #(
   logic [shade_pkg::PATCH_TRIANGLE_W-1:0] triangle;
   logic [3*shade_pkg::PATCH_CORNER_W-1:0] corner_new, corner;
   logic [2*PLACE_W-1:0] door_place;
-  logic [shade_pkg::PATCH_PLAN_W-1:0] plan;
+  logic [shade_pkg::PATCH_PLAN_W-1:0] plan, row_plan;
   logic [5:0] walk_plan;
   logic [shade_pkg::PATCH_RUN_W-1:0] run_new, run;
   logic [shade_pkg::PATCH_TABLE_LOG2-1:0] table_at;
@@ -74,10 +74,13 @@ module shade_patch #(
   );
   shade_patch_front u_front (
     .clk_i, .rst_i, .radius_i, .reach_i, .hx_i(h_i[0+:W]), .hy_i(h_i[W+:W]), .hz_i(h_i[2*W+:W]), .valid_i(door_valid),
-    .triangle_i(door_triangle), .pass_o(door_pass), .corner_o(corner_new), .planned_o(planned), .valid_o(plan_valid),
-    .take_i(rows_take), .plan_o(plan)
+    .triangle_i(door_triangle), .pass_o(door_pass), .corner_o(corner_new), .planned_o(planned), .plan_o(plan)
   );
-  // as many triangles as boxes at most, each ends with one
+  shade_fifo #(.WIDTH(shade_pkg::PATCH_PLAN_W), .LOG2(FIFO), .BLOCK(1)) u_row_plans (
+    .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(rows_take), .data_o(row_plan),
+    .taken_o()
+  );
+  // each has a run or an end among the boxes: no more than there is room for of both
   shade_fifo #(.WIDTH(shade_pkg::PATCH_TRIANGLE_W), .LOG2(FIFO), .BLOCK(1)) u_triangles (
     .clk_i, .rst_i, .valid_i(triangle_put),
     .data_i({door_triangle.dline.exp, door_triangle.dline.mantissa, door_triangle.dcolumn.exp,
@@ -96,7 +99,7 @@ module shade_patch #(
     .clk_i, .rst_i, .valid_i(run_put), .data_i(run_new), .valid_o(run_valid), .ready_i(run_ready), .data_o(run),
     .taken_o(run_taken)
   );
-  shade_patch_room u_run_room (.clk_i, .rst_i, .put_i(run_put), .taken_i(run_taken), .room_o(run_room));
+  shade_patch_room #(.LIMIT(64)) u_run_room (.clk_i, .rst_i, .put_i(run_put), .taken_i(run_taken), .room_o(run_room));
 
   // ---- boxes ---------------------------------------------------------------------------------------------------------------------
   logic row_valid, row_take, row_last, row_direct, clip_room_q, token_room, token_put, token_keep, token_drop;
@@ -110,8 +113,8 @@ module shade_patch #(
   logic [shade_pkg::PATCH_TOKEN_W-1:0] token_new, token;
   logic [shade_pkg::PATCH_BOX_W-1:0] box_new, box;
   shade_patch_rows u_rows (
-    .clk_i, .rst_i, .triangle_valid_i(plan_valid), .triangle_take_o(rows_take), .kx_i(plan[5:3]), .ky_i(plan[2:0]),
-    .direct_i(plan[6]), .run_valid_i(run_valid), .run_ready_o(run_ready), .run_i(run), .row_valid_o(row_valid),
+    .clk_i, .rst_i, .triangle_valid_i(plan_valid), .triangle_take_o(rows_take), .kx_i(row_plan[5:3]), .ky_i(row_plan[2:0]),
+    .direct_i(row_plan[6]), .run_valid_i(run_valid), .run_ready_o(run_ready), .run_i(run), .row_valid_o(row_valid),
     .row_take_i(row_take), .row_o(row), .mask_o(row_mask), .deep_o(row_deep), .least_o(row_least), .past_o(row_past),
     .last_o(row_last), .kx_o(row_kx), .ky_o(row_ky), .direct_o(row_direct), .line_i(line), .first_o(line_first),
     .end_o(line_end)
@@ -132,7 +135,7 @@ module shade_patch #(
     .clk_i, .rst_i, .valid_i(box_put), .data_i(box_new), .valid_o(box_valid), .ready_i(box_ready), .data_o(box),
     .taken_o(box_taken)
   );
-  shade_patch_room #(.LIMIT((1 << FIFO) - 64)) u_box_room (.clk_i, .rst_i, .put_i(box_put), .taken_i(box_taken), .room_o(box_room));
+  shade_patch_room #(.LIMIT((1 << FIFO) - 160)) u_box_room (.clk_i, .rst_i, .put_i(box_put), .taken_i(box_taken), .room_o(box_room));
 
   // ---- light at nodes -------------------------------------------------------------------------------------------------------------
   logic walk_valid, walk_ready, dot_put, dot_valid, dot_ready, dot_taken, dot_room, place_valid, place_ready, range;

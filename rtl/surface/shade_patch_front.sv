@@ -2,10 +2,10 @@
 // shade_patch_plan decides.
 //
 //   valid_i, triangle_i, pass_o   of shade_patch_door; corner_o with pass_o, see shade_patch_way
-//   plan_o, planned_o     {direct, kx, ky}, planned for one clock; valid_o until take_i
+//   plan_o, planned_o     {direct, kx, ky}, for one clock
 //
 // Settings radius_i .. hz_i: see the two. A triangle in about 20 clocks and the larger exp; the next one begins 10 clocks earlier.
-// Example: a triangle that is not taken -> a second one is found, a third one waits at the door.
+// Example: three triangles, no runs -> three plans, one after the other.
 module shade_patch_front (
   input  logic                                       clk_i,
   input  logic                                       rst_i,
@@ -19,8 +19,6 @@ module shade_patch_front (
   output logic                                       pass_o,
   output logic [3*shade_pkg::PATCH_CORNER_W-1:0]     corner_o,
   output logic                                       planned_o,
-  output logic                                       valid_o,
-  input  logic                                       take_i,
   output logic        [ shade_pkg::PATCH_PLAN_W-1:0] plan_o
 );
   logic busy_q, start, found;
@@ -38,11 +36,6 @@ module shade_patch_front (
   );
   always_ff @(posedge clk_i) begin
     if (start) {columns_q, lines_q} <= {columns, lines};
-    busy_q  <= start || (busy_q && !take_i);
-    valid_o <= planned_o || (valid_o && !take_i);
-    if (rst_i) begin
-      busy_q  <= 1'b0;
-      valid_o <= 1'b0;
-    end
+    busy_q <= (start || (busy_q && !planned_o)) && !rst_i;
   end
 endmodule

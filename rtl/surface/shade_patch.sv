@@ -53,7 +53,7 @@ module shade_patch #(
   localparam int FIFO = shade_pkg::PATCH_FIFO_LOG2;
 
   // ---- triangles and runs ------------------------------------------------------------------------------------------------------
-  logic door_valid, door_pass, triangle_put, triangle_valid, corner_valid, planned, plan_valid, walk_plan_valid, walk_take, rows_take;
+  logic door_valid, door_pass, triangle_put, triangle_valid, corner_put, corner_valid, planned, plan_valid, walk_plan_valid, walk_take, rows_take;
   logic run_put, run_valid, run_ready, run_taken, run_room, table_write;
   shade_pkg::triangle_t door_triangle;
   logic [shade_pkg::PATCH_TRIANGLE_W-1:0] triangle;
@@ -74,7 +74,8 @@ module shade_patch #(
   );
   shade_patch_front u_front (
     .clk_i, .rst_i, .radius_i, .reach_i, .hx_i(h_i[0+:W]), .hy_i(h_i[W+:W]), .hz_i(h_i[2*W+:W]), .valid_i(door_valid),
-    .triangle_i(door_triangle), .pass_o(door_pass), .corner_o(corner_new), .planned_o(planned), .plan_o(plan)
+    .triangle_i(door_triangle), .pass_o(door_pass), .corner_valid_o(corner_put),
+    .corner_o(corner_new), .planned_o(planned), .plan_o(plan)
   );
   shade_fifo #(.WIDTH(shade_pkg::PATCH_PLAN_W), .LOG2(FIFO), .BLOCK(1)) u_row_plans (
     .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(rows_take), .data_o(row_plan),
@@ -88,7 +89,7 @@ module shade_patch #(
     .valid_o(triangle_valid), .ready_i(walk_take), .data_o(triangle), .taken_o()
   );
   shade_fifo #(.WIDTH(3 * shade_pkg::PATCH_CORNER_W), .LOG2(FIFO), .BLOCK(1)) u_corners (
-    .clk_i, .rst_i, .valid_i(door_pass), .data_i(corner_new), .valid_o(corner_valid), .ready_i(walk_take), .data_o(corner),
+    .clk_i, .rst_i, .valid_i(corner_put), .data_i(corner_new), .valid_o(corner_valid), .ready_i(walk_take), .data_o(corner),
     .taken_o()
   );
   shade_fifo #(.WIDTH(6), .LOG2(FIFO), .BLOCK(1)) u_plans (

@@ -1,7 +1,7 @@
 // shade_patch_front: the sizes of a triangle's boxes: shade_patch_way finds how far its normal goes while the packet comes in,
 // shade_patch_plan decides.
 //
-//   valid_i, triangle_i, pass_o   of shade_patch_door; corner_o with pass_o, see shade_patch_way
+//   valid_i, triangle_i, pass_o   of shade_patch_door; corner_o see shade_patch_way
 //   plan_o, planned_o     {direct, kx, ky}, for one clock
 //
 // Settings radius_i .. hz_i: see the two. A triangle in about 20 clocks and the larger exp; the next one begins 10 clocks earlier.
@@ -17,6 +17,7 @@ module shade_patch_front (
   input  logic                                       valid_i,
   input  shade_pkg::triangle_t                       triangle_i,
   output logic                                       pass_o,
+  output logic                                       corner_valid_o,
   output logic [3*shade_pkg::PATCH_CORNER_W-1:0]     corner_o,
   output logic                                       planned_o,
   output logic        [ shade_pkg::PATCH_PLAN_W-1:0] plan_o
@@ -27,7 +28,7 @@ module shade_patch_front (
   logic [shade_pkg::COUNT_W-1:0] columns, lines, columns_q, lines_q;
   assign start = found && !busy_q;
   shade_patch_way u_way (
-    .clk_i, .rst_i, .hx_i, .hy_i, .hz_i, .valid_i, .triangle_i, .pass_o, .corner_o, .take_i(start), .done_o(found), .a_o(a),
+    .clk_i, .rst_i, .hx_i, .hy_i, .hz_i, .valid_i, .triangle_i, .pass_o, .corner_valid_o, .corner_o, .take_i(start), .done_o(found), .a_o(a),
     .b_o(b), .far_o(far), .columns_o(columns), .lines_o(lines)
   );
   shade_patch_plan u_plan (

@@ -1,8 +1,8 @@
 // shade_patch_way: how far a triangle's normal goes, and how far away the highlight is: what shade_patch_plan decides by.
 //
-//   valid_i, triangle_i   of shade_patch_door, until pass_o
+//   valid_i, triangle_i   of shade_patch_door, until pass_o: it is copied
 //   hx_i ..    S1.16      H
-//   corner_o   S3.18      N - left Gx, the normal in the corner of the triangle's box, and half an ulp of S1.16, with pass_o
+//   corner_o   S3.18      N - left Gx, the normal in the corner of the triangle's box, and half an ulp of S1.16, with corner_valid_o
 //   done_o     the following are there, until take_i
 //   a_o, b_o   U3.18      norm(Gx), norm(Gy)
 //   far_o      S7.18      norm(corner + (columns Gx + lines Gy) / 2 - H) - (columns a + lines b) / 2: from the middle of the box
@@ -20,6 +20,7 @@ module shade_patch_way (
   input  logic                                           valid_i,
   input  shade_pkg::triangle_t                           triangle_i,
   output logic                                           pass_o,
+  output logic                                           corner_valid_o,
   output logic        [3*shade_pkg::PATCH_CORNER_W-1:0]  corner_o,
   input  logic                                           take_i,
   output logic                                           done_o,
@@ -44,7 +45,8 @@ module shade_patch_way (
   logic put, ends;
   logic [4:0] tail_q;  // clocks since LESS: the length of the way to H, half of the box
   assign put    = state_q == IDLE && valid_i;
-  assign pass_o = state_q == CORNER;
+  assign pass_o = put;
+  assign corner_valid_o = state_q == CORNER;
 
   logic [shade_pkg::COUNT_W-1:0] wide_all_q, high_all_q;
   logic [WAY_W-1:0] a_way_q, b_way_q;
@@ -92,6 +94,8 @@ module shade_patch_way (
       add   = total >>> 1;
     endfunction
     logic signed [SUM_W-1:0] across_q, less_q, down_q;
+    logic signed [G_W-1:0] n_q, gx_q, gy_q;
+    always_ff @(posedge clk_i) if (put) {n_q, gx_q, gy_q} <= {n, gx, gy};
     logic signed [W-1:0] one, other, less_h_q;  // -H, a setting
     assign one   = state_q == SUM ? W'(across_q) : state_q == CORNER ? W'($signed(s_q[c]) >>> 1) : $signed(s_q[c]);
     assign other = state_q == SUM ? W'(down_q) : state_q == CORNER ? W'($signed(corner_o[c*CORNER_W+:CORNER_W])) : less_h_q;
@@ -99,16 +103,16 @@ module shade_patch_way (
     always_ff @(posedge clk_i) begin
       if (state_q == IDLE) {across_q, less_q, down_q} <= '0;
       else begin
-        if (x_on) across_q <= add(across_q, gx, columns_q[0]);
-        if (x_on) less_q <= add(less_q, gx, left_q[0]);
-        if (y_on) down_q <= add(down_q, gy, lines_q[0]);
+        if (x_on) across_q <= add(across_q, gx_q, columns_q[0]);
+        if (x_on) less_q <= add(less_q, gx_q, left_q[0]);
+        if (y_on) down_q <= add(down_q, gy_q, lines_q[0]);
       end
       case (state_q)
         IDLE:    s_q[c] <= W'(gx);
-        TIMES:   s_q[c] <= W'(gy);
+        TIMES:   s_q[c] <= W'(gy_q);
         default: s_q[c] <= one + other;
       endcase
-      if (state_q == SUM) corner_o[c*CORNER_W+:CORNER_W] <= $signed({(CORNER_W - UP)'(n), UP'(1 << (UP - 1))}) - CORNER_W'(less_q);
+      if (state_q == SUM) corner_o[c*CORNER_W+:CORNER_W] <= $signed({(CORNER_W - UP)'(n_q), UP'(1 << (UP - 1))}) - CORNER_W'(less_q);
     end
   end
 

@@ -130,8 +130,8 @@ module shade_lobe #(
   localparam int BIT_W = shade_pkg::LOBE_BIT_F + 1;
   localparam int D_F = X_F + shade_pkg::LOBE_ROW_F;
   localparam int D_W = D_F + 2;
-  function automatic logic [D_W-1:0] beside(input logic [X_W-LAST-1:0] x, input logic last);
-    beside = {1'b0, x, 1'b0, x[X_W-LAST-1-:BIT_W] & {BIT_W{last}}, 1'b1, {(D_F - Y_F - 1) {1'b0}}};
+  function automatic logic [D_W-1:0] beside(input logic [X_W-LAST-1:0] x, input logic odd);
+    beside = {1'b0, x, 1'b0, x[X_W-LAST-1-:BIT_W] & {BIT_W{odd}}, 1'b1, {(D_F - Y_F - 1) {1'b0}}};
   endfunction
 
   // y = p + d for p = (s' - 1) X' and d all the rest; a dark one is 1

@@ -49,7 +49,7 @@ module shade_gradient (
     wide_q1 <= (down_i[5:4] == 2'd0 && more(all, W_1 - 1)) || (down_i[5:4] == 2'd1 && more(all, W_1 + 15));
     down_q1 <= down_i[3:0];
     x_q2    <= W_2'(x_q1 >>> {down_q1[3:2], 2'd0});
-    wide_q2 <= wide_q1 || more((SUM_W + UP)'(x_q1), W_2 - 1 + 4 * int'(down_q1[3:2]));
+    wide_q2 <= wide_q1 || more((SUM_W + UP)'(x_q1), W_2 - 1 + int'({down_q1[3:2], 2'b00}));
     down_q2 <= down_q1[1:0];
     x_q3    <= IN_W'(x_q2 >>> down_q2);
     wide_q3 <= wide_q2 || more((SUM_W + UP)'(x_q2), IN_W - 1 + int'(down_q2));

@@ -54,6 +54,7 @@ module shade_plane (
   logic credit_q0;
   logic [WAIT_LOG2:0] credit_q;
   logic after_taken;
+  logic surface_large_q;
   assign start        = head_valid_i && run_some && !moving_q && !busy_q && !surface_valid_o && result_q == '0;
   assign head_ready_o = start;
   assign move         = moving_q && run_some && credit_q0;
@@ -63,7 +64,6 @@ module shade_plane (
   assign whole        = drop_q || part_q == 2'b01;
   assign last_component = component_q == 2'd3;
   assign pair_taken   = step && whole;
-  logic surface_large_q;
   always_ff @(posedge clk_i) begin
     moving_q <= !rst_i && ((start && !run.none) || (moving_q && !(move && run.last)));
     busy_q   <= !rst_i && (start || (busy_q && !(pair_taken && last_component)));
@@ -95,7 +95,7 @@ module shade_plane (
   logic [S_W+17:0] product_q3;
   logic [SUM_W-1:0] sum_q4, base, half_up_q5;
   logic first_q3, shift_q3, first_q2, shift_q2, first_q1, shift_q1, result;
-  assign way      = way_q[part_q[0]];
+  assign way      = part_q[0] ? way_q[1] : way_q[0];
   assign way_part = part_q[1] ? {{(35 - W) {way[W]}}, way[W-1:17]} : {way[17] && !surface_large_q, way[16:0]};
   shade_mul #(.A_W(S_W), .B_W(18), .STAGES(shade_pkg::LATENCY_MUL_IN)) u_mul (
     .clk_i, .a_i(part_q[0] ? pair.line : pair.column), .b_i(way_part), .p_o(product_q3)

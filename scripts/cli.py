@@ -287,6 +287,14 @@ def papers() -> None:
 
 
 @cli.command()
+def machines() -> None:
+    """Measure area, clock rate, speed and error of every path and number of lanes; leaves build/machines.json."""
+    from polyshade.scripts.studies import machines as command
+
+    command.main()
+
+
+@cli.command()
 @click.argument("module", nargs=-1)
 def synth(module: tuple[str, ...]) -> None:
     """Synthesize every module (or those named) for every FPGA family; leaves build/synth.json."""

@@ -37,6 +37,7 @@ module shade_patch_pieces (
   // ---- nodes: six of a box, or a pixel -----------------------------------------------------------------------------------------
   logic direct, node, whole, single, free_q, load_q, waits_q, load, step, done;
   logic [2:0] node_q;
+  logic [LATE-1:0] loads_q, steps_q, singles_q;
   logic [BOX_W-1:0] box, coming_q, box_q;
   assign {direct, box} = meta_i;
   // the last node of a box when there is room for its coefficients
@@ -45,7 +46,6 @@ module shade_patch_pieces (
   assign single        = meta_valid_i && light_valid_i && direct && room_i;
   assign light_ready_o = node || single;
   assign meta_ready_o  = whole || single;
-  logic [LATE-1:0] loads_q, steps_q, singles_q;
   always_ff @(posedge clk_i) begin
     if (node) node_q <= whole ? 3'd0 : node_q + 3'd1;
     if (whole) coming_q <= box;

@@ -2,6 +2,7 @@
 // tools take it with -F from any folder; `make sources` writes one with absolute paths for those that only know -f.
 shade_pkg.sv
 fixed/shade_delay.sv
+fixed/shade_ring.sv
 fixed/shade_hold.sv
 fixed/shade_valid.sv
 fixed/shade_round.sv

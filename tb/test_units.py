@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from polyshade.golden import contract as k
-from polyshade.golden import light, normal
+from polyshade.golden import light, normal, plan
 from polyshade.golden.fixed import ONE
 from polyshade.sim.sources import Point, label
 from polyshade.sim.units import Case, cases, check_pixel_normals, check_poly_span, unit_vectors
@@ -115,6 +115,28 @@ def test_halfway_of_unit_vectors() -> None:
     assert not zero.any()
     assert np.abs(vh - ((v * s).sum(axis=0) / length).clip(0, ONE)).max() <= 1.6
     assert np.abs(vh - length / 2)[length >= ONE].max() <= 3.4
+
+
+def test_errors_of_printed_constants() -> None:
+    """Of 16 fraction bits are the constants of the papers' forms: how far that takes the results, in ulp of each."""
+    c = np.arange(ONE + 1)
+    x = c.astype(np.longdouble) / ONE
+
+    def worst(values: np.ndarray, exact: np.ndarray, fraction: int) -> float:
+        return float(np.abs(values - np.ldexp(exact, fraction)).max())
+
+    d1a = max(
+        worst(normal.metric(c, m)[0], 0.894 + 0.06 * x + 0.007 * m, k.INTENSITY_F)
+        for m in range(k.METRIC_M_MIN, k.METRIC_M_MAX + 1)
+    )
+    first, second = (normal.invc(c, k.FORM_PAPER, degree)[0] for degree in (1, 2))
+    assert d1a == pytest.approx(3.3, abs=0.05)
+    assert worst(first, 0.683 - 0.191 * x, k.INVC_F) == pytest.approx(1.65, abs=0.05)
+    assert worst(second, 0.703 - 0.3 * x + 0.098 * x * x, k.INVC_F) == pytest.approx(2.3, abs=0.05)
+    printed = {1: 0.28546133 - 0.29073021 * x, 2: 0.29222919 - 0.34122087 * x + 0.04942337 * x * x}
+    for degree, error in ((1, 4.1), (2, 9.0)):
+        eta = plan.criterion(c, c, c, 0, k.FORM_PAPER, degree)[0]
+        assert worst(eta, 3 * printed[degree], k.ETA_F) == pytest.approx(error, abs=0.05)
 
 
 def test_midpoint_of_equal_normals() -> None:

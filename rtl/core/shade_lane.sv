@@ -196,7 +196,7 @@ module shade_lane #(
       .valid_o(lit_o), .diffuse_o(diffuse), .specular_o(specular), .flags_o(light_flags)
     );
     localparam int LATENCY = shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
-    shade_delay #(.WIDTH(2), .DEPTH(LATENCY)) u_fault (.clk_i, .d_i(fault_q), .q_o(fault));
+    shade_ring #(.WIDTH(2), .DEPTH(LATENCY)) u_fault (.clk_i, .rst_i, .d_i(fault_q), .q_o(fault));
   end else begin : g_folded
     // the normal comes LATENCY_UNIT_FOLDED + 1 clocks behind a phase 0 and waits for the next one
     localparam int TURN = (shade_pkg::LATENCY_UNIT_FOLDED + 1) % FOLD;

@@ -34,27 +34,47 @@ module shade_mul #(
   localparam int PRODUCT = STAGES == 0 ? 0 : 1;
   localparam int SUM = STAGES - IN - PRODUCT;
 
+  // the registers stand in this module, where every tool finds them beside the product
   logic signed [A_W-1:0] a;
   logic signed [B_W-1:0] b;
-  shade_delay #(.WIDTH(P_W), .DEPTH(IN)) u_in (.clk_i, .d_i({a_i, b_i}), .q_o({a, b}));
-
   logic signed [HIGH_W-1:0] ah;
   logic signed [HIGH_W+B_W-1:0] high, high_p;  // ah b, and behind its register
   logic signed [P_W-1:0] sum;
+  if (IN != 0) begin : g_in
+    always_ff @(posedge clk_i) {a, b} <= {a_i, b_i};
+  end else begin : g_no_in
+    assign {a, b} = {a_i, b_i};
+  end
   assign ah   = a[A_W-1-:HIGH_W];
   assign high = ah * b;
-  shade_delay #(.WIDTH(HIGH_W + B_W), .DEPTH(PRODUCT)) u_high (.clk_i, .d_i(high), .q_o(high_p));
+  if (PRODUCT != 0) begin : g_product
+    always_ff @(posedge clk_i) high_p <= high;
+  end else begin : g_no_product
+    assign high_p = high;
+  end
 
   if (CUT) begin : g_cut
     logic signed [LOW:0] al;
     logic signed [LOW+B_W:0] low, low_p;
     assign al  = {1'b0, a[LOW-1:0]};
     assign low = al * b;
-    shade_delay #(.WIDTH(LOW + B_W + 1), .DEPTH(PRODUCT)) u_low (.clk_i, .d_i(low), .q_o(low_p));
+    if (PRODUCT != 0) begin : g_product
+      always_ff @(posedge clk_i) low_p <= low;
+    end else begin : g_no_product
+      assign low_p = low;
+    end
     // the lower 17 bits of al b are those of p: the adder is that much shorter
     assign sum = {high_p + (HIGH_W + B_W)'(low_p >>> LOW), low_p[LOW-1:0]};
   end else begin : g_whole
     assign sum = high_p;
   end
-  shade_delay #(.WIDTH(P_W), .DEPTH(SUM)) u_sum (.clk_i, .d_i(sum), .q_o(p_o));
+  if (SUM != 0) begin : g_sum
+    always_ff @(posedge clk_i) p_o <= sum;
+  end else begin : g_no_sum
+    assign p_o = sum;
+  end
+  if (STAGES == 0) begin : g_combinational
+    logic unused_clk;
+    assign unused_clk = clk_i;
+  end
 endmodule

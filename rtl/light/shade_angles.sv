@@ -4,6 +4,7 @@
 //   diffuse_o           S1.16         N.L, saturated; saturated_o tells
 //   nl_o, nv_o          U1.16         N.L, N.V clamped to [0, 1]; nl_range_o, nv_range_o: beyond [-1, 1]
 //   x_o                 U2.20         mirror_i: 1 - R.V, else 1 - N.H (shade_versine); x_range_o: cosine beyond [-1, 1]
+//                                     error 1/2 ulp; of R, V 41 ulp were measured, because R is rounded to S1.16
 //   lost_o                            H = 0: there is none, because L = -V
 //
 // LOCAL = 0: L, V, H are settings; 1: of every node, and H is taken LATENCY_HALFWAY clocks after N, L, V. Settings and
@@ -75,15 +76,15 @@ module shade_angles #(
     diffuse_o <= nl_last;
     nl_o      <= nl;
   end
-  shade_delay #(.WIDTH(W), .DEPTH(TO_END - DOT - 2)) u_wait_nl (.clk_i, .d_i(nl_q5), .q_o(nl_last));
-  shade_delay #(.WIDTH(F + 4), .DEPTH(TO_END - DOT - 1)) u_wait_nv (
-    .clk_i, .d_i({nl_range_q5, nv_range_q5, saturated_q5, nv_q5}), .q_o({nl_range_o, nv_range_o, saturated_o, nv_o})
+  shade_ring #(.WIDTH(W), .DEPTH(TO_END - DOT - 2)) u_wait_nl (.clk_i, .rst_i, .d_i(nl_q5), .q_o(nl_last));
+  shade_ring #(.WIDTH(F + 4), .DEPTH(TO_END - DOT - 1)) u_wait_nv (
+    .clk_i, .rst_i, .d_i({nl_range_q5, nv_range_q5, saturated_q5, nv_q5}), .q_o({nl_range_o, nv_range_o, saturated_o, nv_o})
   );
 
   // ---- the angle that the lobe is a function of ------------------------------------------------------------------
   logic [3*W-1:0] n_at_r, r, v_at_h, a, a_q, b_q;
-  shade_delay #(.WIDTH(3 * W), .DEPTH(TO_R)) u_n (.clk_i, .d_i(n_i), .q_o(n_at_r));
-  shade_delay #(.WIDTH(3 * W), .DEPTH(LOCAL != 0 ? TO_H : 0)) u_v (.clk_i, .d_i(v_i), .q_o(v_at_h));
+  shade_ring #(.WIDTH(3 * W), .DEPTH(TO_R)) u_n (.clk_i, .rst_i, .d_i(n_i), .q_o(n_at_r));
+  shade_ring #(.WIDTH(3 * W), .DEPTH(LOCAL != 0 ? TO_H : 0)) u_v (.clk_i, .rst_i, .d_i(v_i), .q_o(v_at_h));
   if (REFLECT != 0) begin : g_reflect
     shade_reflect u_reflect (
       .clk_i, .rst_i, .valid_i(1'b0), .nx_i(n_i[0+:W]), .ny_i(n_i[W+:W]), .nz_i(n_i[2*W+:W]),
@@ -99,7 +100,7 @@ module shade_angles #(
     a   <= mirror_i ? r : n_at_r;
     b_q <= mirror_i ? v_at_h : h_i;
   end
-  shade_delay #(.WIDTH(3 * W), .DEPTH(TO_H - TO_R)) u_a (.clk_i, .d_i(a), .q_o(a_q));
+  shade_ring #(.WIDTH(3 * W), .DEPTH(TO_H - TO_R)) u_a (.clk_i, .rst_i, .d_i(a), .q_o(a_q));
   shade_versine #(.FORM(FORM)) u_versine (
     .clk_i, .rst_i, .valid_i(1'b0), .ax_i(a_q[0+:W]), .ay_i(a_q[W+:W]), .az_i(a_q[2*W+:W]),
     .bx_i(b_q[0+:W]), .by_i(b_q[W+:W]), .bz_i(b_q[2*W+:W]), .valid_o(), .x_o, .range_o(x_range_o)

@@ -6,6 +6,7 @@
 //   s                          dd.ffff ffff ffff       U2.48, shifted right by 31 - e - gain_exp, within 0 .. 63
 //   s_o                         d.ffff                 S1.16 in [0, 2 - 2^-16], to nearest, ties up, saturated
 //
+// Error at most 3.5 ulp; where e + gain_exp is above 16, 3.5 times 2^(e + gain_exp - 32), of what is cut of the product.
 // Sums of exponents beyond 31 count as 31: what is not below 2^-47 saturates there. Six 18 x 18 multipliers; with
 // constant inputs (fresnel = 1, w = 0) fewer. gain_i and gain_exp_i must not change while values are inside.
 // Latency LATENCY_GAIN = 12 clocks, one value a clock. Source: P1 and P3, the models' scales.

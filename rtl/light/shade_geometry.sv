@@ -13,6 +13,8 @@
 //   num_o            d.ffff            U1.16: 1, N.L, r or N.H; r rounded to nearest
 //   w_o, e_o        s0.ffff ff         S0.18 in [-1/2, 0], -15 .. 33; 1 + w within 2^-16 (relative)
 //
+// num (1 + w) within 1.8 ulp of num (2^-16) of g 2^-e from the inputs as they are.
+//
 // Five 18 x 18 multipliers, two of them in shade_rsqrt. model_i .. inv_n_exp_i must not change while values are inside.
 // Latency LATENCY_GEOMETRY = 22 clocks, one value a clock. Source: P1, Cook-Torrance and Ward; Schlick's lobe.
 // Example: Ward, N.L = 1/4, N.V = 1 -> den = 1/4, num = 1, w = 0, e = 1.
@@ -123,8 +125,8 @@ module shade_geometry (
   shade_delay #(.WIDTH(1), .DEPTH(MUL + 1 + ROOT)) u_masked (.clk_i, .d_i(masked_q4), .q_o(masked_q17));
   shade_delay #(.WIDTH(E_W), .DEPTH(MUL + 1)) u_e (.clk_i, .d_i(e_q18), .q_o(e_q21));
   shade_delay #(.WIDTH(1), .DEPTH(1 + MUL + 1)) u_zero (.clk_i, .d_i(divides && zero_q17), .q_o(zero_q21));
-  shade_delay #(.WIDTH(C_W), .DEPTH(MUL + 1 + ROOT + 1 + MUL + 1)) u_num (
-    .clk_i, .d_i(schlick ? r_q4 : num_q4), .q_o(num_q21)
+  shade_ring #(.WIDTH(C_W), .DEPTH(MUL + 1 + ROOT + 1 + MUL + 1)) u_num (
+    .clk_i, .rst_i, .d_i(schlick ? r_q4 : num_q4), .q_o(num_q21)
   );
   assign base    = ward ? E_W'(F) : schlick ? E_W'(X_F) : E_W'(2 * F) + E_W'({1'b0, masked_q17});
   assign twice   = square_q21[S_W-1] && !square_q21[S_W-2];

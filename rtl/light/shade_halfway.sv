@@ -48,7 +48,7 @@ module shade_halfway (
 
   logic signed [shade_pkg::DOT_W-1:0] dot_q24;
   logic [shade_pkg::INTENSITY_F:0] vh;
-  shade_delay #(.WIDTH(3 * W), .DEPTH(TO_H)) u_v (.clk_i, .d_i(v), .q_o(v_q20));
+  shade_ring #(.WIDTH(3 * W), .DEPTH(TO_H)) u_v (.clk_i, .rst_i, .d_i(v), .q_o(v_q20));
   shade_dot3 u_dot (
     .clk_i, .rst_i, .valid_i(1'b0),
     .ax_i(v_q20[0+:W]), .ay_i(v_q20[W+:W]), .az_i(v_q20[2*W+:W]),

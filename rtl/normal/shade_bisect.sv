@@ -38,7 +38,7 @@ module shade_bisect #(
     assign sum = {a[c*W+W-1], a[c*W+:W]} + {b[c*W+W-1], b[c*W+:W]};
     always_ff @(posedge clk_i) sum_q1[c*W+:W] <= sum[W] == sum[W-1] ? sum[W-1:0] : {sum[W], {(W - 1) {~sum[W]}}};
   end
-  shade_delay #(.WIDTH(3 * W), .DEPTH(WAIT - 1)) u_sum (.clk_i, .d_i(sum_q1), .q_o(sum_q));
+  shade_ring #(.WIDTH(3 * W), .DEPTH(WAIT - 1)) u_sum (.clk_i, .rst_i, .d_i(sum_q1), .q_o(sum_q));
 
   shade_scale3 u_scale (
     .clk_i, .rst_i, .valid_i(1'b0), .ready_o(), .x_i(sum_q[0+:W]), .y_i(sum_q[W+:W]), .z_i(sum_q[2*W+:W]),

@@ -6,7 +6,8 @@
 //   c_i          S1.16, clamped to [0, 1]: clamped_o
 //   m_i          U13.0, clamped to 3 .. 12: m_error_o
 //   threshold_i  S1.16, METRIC_THRESHOLD = 0.9 in the paper; clamped to [0, 1]: threshold_error_o
-//   d1a_o, d2_o  S1.16, constants of 16 fraction bits, to nearest, ties up: error at most 1/2 ulp
+//   d1a_o, d2_o  S1.16, constants of 16 fraction bits, to nearest, ties up: error at most 1/2 ulp; with the
+//                constants as the paper prints them 3.3 ulp (d1a), 0.9 ulp (d2)
 //   needs_d1_o, needs_d2_o   d1a_o, d2_o below the threshold: the middle must be normalized
 //
 // All flags come with the result. (d1a is never below 0.915: with the paper's threshold needs_d1_o stays 0.)

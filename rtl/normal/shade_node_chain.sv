@@ -58,8 +58,8 @@ module shade_node_chain #(
   );
 
   logic signed [W-1:0] ax_q12, ay_q12, az_q12, bx_q12, by_q12, bz_q12, x_q12, y_q12, z_q12;
-  shade_delay #(.WIDTH(6 * W), .DEPTH(STEP)) u_ends (
-    .clk_i, .d_i({ax_i, ay_i, az_i, bx_i, by_i, bz_i}), .q_o({ax_q12, ay_q12, az_q12, bx_q12, by_q12, bz_q12})
+  shade_ring #(.WIDTH(6 * W), .DEPTH(STEP)) u_ends (
+    .clk_i, .rst_i, .d_i({ax_i, ay_i, az_i, bx_i, by_i, bz_i}), .q_o({ax_q12, ay_q12, az_q12, bx_q12, by_q12, bz_q12})
   );
 
   shade_bisect #(.WAIT(INVC)) u_n2 (
@@ -76,8 +76,8 @@ module shade_node_chain #(
   );
 
   localparam int LATENCY = shade_pkg::LATENCY_NODE_CHAIN;
-  shade_delay #(.WIDTH(9 * W), .DEPTH(LATENCY - STEP)) u_nodes (
-    .clk_i, .d_i({ax_q12, ay_q12, az_q12, x_q12, y_q12, z_q12, bx_q12, by_q12, bz_q12}),
+  shade_ring #(.WIDTH(9 * W), .DEPTH(LATENCY - STEP)) u_nodes (
+    .clk_i, .rst_i, .d_i({ax_q12, ay_q12, az_q12, x_q12, y_q12, z_q12, bx_q12, by_q12, bz_q12}),
     .q_o({n0x_o, n0y_o, n0z_o, n2x_o, n2y_o, n2z_o, n4x_o, n4y_o, n4z_o})
   );
   shade_delay #(.WIDTH(1), .DEPTH(LATENCY - INVC)) u_clamped (.clk_i, .d_i(clamped_q9), .q_o(clamped_o));

@@ -54,7 +54,7 @@ module shade_normalize (
   logic [V_W-1:0] v_q14;
   logic [4:0] shift;
   logic [1:0] shift_q15;
-  shade_delay #(.WIDTH(V_W), .DEPTH(TO_ROOT)) u_v (.clk_i, .d_i({x_i, y_i, z_i}), .q_o(v_q14));
+  shade_ring #(.WIDTH(V_W), .DEPTH(TO_ROOT)) u_v (.clk_i, .rst_i, .d_i({x_i, y_i, z_i}), .q_o(v_q14));
   assign shift = 5'd17 - e_q14;
   always_ff @(posedge clk_i) begin
     shift_q15 <= shift[1:0];

@@ -139,8 +139,8 @@ module shade_pixel_normals (
   logic [V_W-1:0] e, held_q, a_m, b_m;
   logic odd_m;
   shade_valid #(.DEPTH(TO_UNIT)) u_valid_e (.clk_i, .rst_i, .valid_i(valid_q2), .valid_o(valid_e));
-  shade_delay #(.WIDTH(1 + VARIANT_W), .DEPTH(TO_UNIT)) u_token_e (
-    .clk_i, .d_i({odd_q2, variant_q2}), .q_o({odd_e, variant_e})
+  shade_ring #(.WIDTH(1 + VARIANT_W), .DEPTH(TO_UNIT)) u_token_e (
+    .clk_i, .rst_i, .d_i({odd_q2, variant_q2}), .q_o({odd_e, variant_e})
   );
   assign e = {ez, ey, ex};
   always_ff @(posedge clk_i) begin
@@ -188,8 +188,8 @@ module shade_pixel_normals (
   shade_delay #(.WIDTH(1), .DEPTH(TO_UNIT + TO_FACTOR - shade_pkg::LATENCY_METRIC)) u_needs_d1 (
     .clk_i, .d_i(needs_d1), .q_o(needs_d1_f)
   );
-  shade_delay #(.WIDTH(W), .DEPTH(TO_UNIT + 1 + shade_pkg::LATENCY_DOT3)) u_threshold (
-    .clk_i, .d_i(threshold_q2), .q_o(threshold_f)
+  shade_ring #(.WIDTH(W), .DEPTH(TO_UNIT + 1 + shade_pkg::LATENCY_DOT3)) u_threshold (
+    .clk_i, .rst_i, .d_i(threshold_q2), .q_o(threshold_f)
   );
   shade_metric u_metric_pixel (
     .clk_i, .rst_i, .valid_i(1'b0), .c_i(cosine), .m_i(COUNT_W'(shade_pkg::METRIC_M_MIN)), .threshold_i(threshold_f),
@@ -199,8 +199,8 @@ module shade_pixel_normals (
   shade_delay #(.WIDTH(1), .DEPTH(shade_pkg::LATENCY_INVC - shade_pkg::LATENCY_METRIC)) u_needs_d2 (
     .clk_i, .d_i(needs_d2), .q_o(needs_d2_f)
   );
-  shade_delay #(.WIDTH(1 + VARIANT_W), .DEPTH(TO_FACTOR - 1)) u_token_f (
-    .clk_i, .d_i({odd_m, variant_m}), .q_o({odd_f, variant_f})
+  shade_ring #(.WIDTH(1 + VARIANT_W), .DEPTH(TO_FACTOR - 1)) u_token_f (
+    .clk_i, .rst_i, .d_i({odd_m, variant_m}), .q_o({odd_f, variant_f})
   );
   always_ff @(posedge clk_i) begin
     factor_q <= shade_pkg::INVC_F'(1 << (shade_pkg::INVC_F - 1));
@@ -225,8 +225,8 @@ module shade_pixel_normals (
     .bx_i(b_m[0+:W]), .by_i(b_m[W+:W]), .bz_i(b_m[W+W+:W]), .invc_i(factor_q),
     .valid_o(valid_p), .x_o(rx), .y_o(ry), .z_o(rz)
   );
-  shade_delay #(.WIDTH(TAG_W + 1), .DEPTH(TO_UNIT + TO_END)) u_token_p (
-    .clk_i, .d_i({last_q2, tag_q2}), .q_o({last_p, tag_p})
+  shade_ring #(.WIDTH(TAG_W + 1), .DEPTH(TO_UNIT + TO_END)) u_token_p (
+    .clk_i, .rst_i, .d_i({last_q2, tag_q2}), .q_o({last_p, tag_p})
   );
   logic [V_W-1:0] normal;
   shade_fifo #(.WIDTH(V_W + TAG_W + 1), .LOG2(shade_pkg::NORMAL_FIFO_LOG2)) u_fifo (

@@ -2,7 +2,7 @@
 //
 //   x_i, y_i, z_i  sdd.ffff        S2.15, |v| >= 1/8
 //   bypass_i                       no normalization (P2): n = v, saturated to S1.16
-//   x_o, y_o, z_o  sd.ffff         S1.16, to nearest, ties up: within 0.88 ulp for |v| < 2, 1.63 ulp for longer ones
+//   x_o, y_o, z_o  sd.ffff         S1.16, to nearest, ties up: within 0.88 ulp for |v| < 2, 1.64 ulp for longer ones
 //   zero_o, short_o                v = 0: n = 0; |v| < 1/8: n is too short. Both are about v, bypassed or not.
 //
 //   z = x^2 + y^2 + z^2            exact, U6.30
@@ -85,8 +85,8 @@ module shade_unit #(
     logic bypass_q14, bypass_q15;
     logic [2:0] shift_q14;
     logic [F-1:0] s_q16;
-    shade_delay #(.WIDTH(V_W + 1), .DEPTH(MUL + 2 + shade_pkg::LATENCY_RSQRT)) u_v (
-      .clk_i, .d_i({bypass_i, z_i, y_i, x_i}), .q_o({bypass_q14, v_q14})
+    shade_ring #(.WIDTH(V_W + 1), .DEPTH(MUL + 2 + shade_pkg::LATENCY_RSQRT)) u_v (
+      .clk_i, .rst_i, .d_i({bypass_i, z_i, y_i, x_i}), .q_o({bypass_q14, v_q14})
     );
     assign shift_q14 = shift(bypass_q14, short_v, e);
     assign bypass_s  = bypass_q15;

@@ -162,7 +162,7 @@ module shade_kappa #(
     p_q13    <= p_q12 >> r_q12;
     kappa_o  <= p_q13[shade_pkg::KAPPA_W-1:0] | {shade_pkg::KAPPA_W{over_q13 || |p_q13[P_W-1:shade_pkg::KAPPA_W]}};
   end
-  shade_delay #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATENCY - shade_pkg::LATENCY_KAPPA)) u_r (.clk_i, .d_i(r_q5), .q_o(r_q10));
+  shade_ring #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATENCY - shade_pkg::LATENCY_KAPPA)) u_r (.clk_i, .rst_i, .d_i(r_q5), .q_o(r_q10));
   shade_delay #(.WIDTH(1), .DEPTH(2)) u_over (.clk_i, .d_i(over_q11), .q_o(over_q13));
 
   shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i(valid_i && ready_o), .valid_o);

@@ -76,9 +76,9 @@ module shade_planner #(
     .clk_i, .rst_i, .valid_i(1'b0), .ready_o, .gx_i, .gy_i, .gz_i, .log2_i(whole_q2), .mantissa_i, .exponent_i,
     .valid_o(), .kappa_o(kappa_q14)
   );
-  shade_delay #(.WIDTH(COUNT_W), .DEPTH(20 + WAIT)) u_count (.clk_i, .d_i(count_i), .q_o(count_q20));
+  shade_ring #(.WIDTH(COUNT_W), .DEPTH(20 + WAIT)) u_count (.clk_i, .rst_i, .d_i(count_i), .q_o(count_q20));
   shade_delay #(.WIDTH(COUNT_W), .DEPTH(2)) u_count2 (.clk_i, .d_i(count_q20), .q_o(count_q22));
-  shade_delay #(.WIDTH(LOG2_W), .DEPTH(17 + WAIT)) u_whole (.clk_i, .d_i(whole_q2), .q_o(whole_q19));
+  shade_ring #(.WIDTH(LOG2_W), .DEPTH(17 + WAIT)) u_whole (.clk_i, .rst_i, .d_i(whole_q2), .q_o(whole_q19));
   shade_delay #(.WIDTH(1), .DEPTH(14 + WAIT)) u_flat (.clk_i, .d_i(flat_i), .q_o(flat_q14));
   shade_delay #(.WIDTH(1), .DEPTH(13)) u_flat2 (.clk_i, .d_i(flat_q14), .q_o(flat_q27));
 

@@ -64,8 +64,8 @@ module shade_poly_span #(
   logic [shade_pkg::T_F:0] t_e;
   logic [3:0] log2_e;
   shade_valid #(.DEPTH(shade_pkg::LATENCY_COEF)) u_valid_e (.clk_i, .rst_i, .valid_i(valid), .valid_o(valid_e));
-  shade_delay #(.WIDTH(shade_pkg::T_F + 6), .DEPTH(shade_pkg::LATENCY_COEF)) u_token_e (
-    .clk_i, .d_i({first, log2, t}), .q_o({first_e, log2_e, t_e})
+  shade_ring #(.WIDTH(shade_pkg::T_F + 6), .DEPTH(shade_pkg::LATENCY_COEF)) u_token_e (
+    .clk_i, .rst_i, .d_i({first, log2, t}), .q_o({first_e, log2_e, t_e})
   );
 
   // ---- the two channels --------------------------------------------------------------------------------------
@@ -104,8 +104,8 @@ module shade_poly_span #(
   logic valid_p, last_p;
   logic [shade_pkg::TAG_W-1:0] tag_p;
   shade_valid #(.DEPTH(LATENCY_EVALUATOR + 1)) u_valid_p (.clk_i, .rst_i, .valid_i(valid_e), .valid_o(valid_p));
-  shade_delay #(.WIDTH(shade_pkg::TAG_W + 1), .DEPTH(LATENCY_TOKEN)) u_token_p (
-    .clk_i, .d_i({last, tag}), .q_o({last_p, tag_p})
+  shade_ring #(.WIDTH(shade_pkg::TAG_W + 1), .DEPTH(LATENCY_TOKEN)) u_token_p (
+    .clk_i, .rst_i, .d_i({last, tag}), .q_o({last_p, tag_p})
   );
   shade_fifo #(.WIDTH(shade_pkg::PIXEL_DATA_W + shade_pkg::TAG_W + 1)) u_fifo (
     .clk_i, .rst_i, .valid_i(valid_p), .data_i({last_p, tag_p, pixel}),

@@ -43,7 +43,7 @@ from tqdm import tqdm
 RTL = ROOT / "rtl"
 CATALOGUE = RTL / "README.md"
 # They hand data on unaltered: there is nothing to model.
-CARRIERS = {"shade_delay", "shade_hold", "shade_valid", "shade_fifo"}
+CARRIERS = {"shade_delay", "shade_ring", "shade_hold", "shade_valid", "shade_fifo"}
 # Machines of many parts, shade_patch_<part>, with one golden model, golden/patch.py, and one bench, that of the whole.
 MACHINES = ("shade_patch",)
 

@@ -18,6 +18,7 @@ def grid(**choices: list[int]) -> list[Point]:
 
 POINTS: dict[str, list[Point]] = {
     "shade_delay": [{"DEPTH": 0}, {"DEPTH": 17}, {"WIDTH": 1, "DEPTH": 1}, {"WIDTH": 33, "DEPTH": 3}],
+    "shade_ring": [{"DEPTH": 0}, {"DEPTH": 17}, {"WIDTH": 2, "DEPTH": 51}, {"WIDTH": 18, "DEPTH": 8}],
     "shade_valid": [{"DEPTH": 2}],
     "shade_round": [
         {"WIDTH": 2, "DROP": 1},
@@ -81,6 +82,7 @@ POINTS: dict[str, list[Point]] = {
 
 REFUSED: dict[str, list[Point]] = {
     "shade_delay": [{"WIDTH": 0}],
+    "shade_ring": [{"WIDTH": 0}, {"DEPTH": -1}],
     "shade_valid": [{"DEPTH": 0}],
     "shade_round": [{"WIDTH": 4, "DROP": 4}, {"DROP": 0}],
     "shade_saturate": [{"WIDTH": 8, "OUT_W": 7}],

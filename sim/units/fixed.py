@@ -84,11 +84,16 @@ def _ties(ranges: dict[str, tuple[int, int]], drop: int) -> Callable[[np.random.
 def _delay(form: str) -> Iterator[Case]:
     if form != "refined":
         return
-    for width, depth in ((20, 0), (12, 3), (16, 41), (33, 5), (1, 0), (8, 8), (8, 16), (8, 17), (8, 47)):
+    delays = [(20, 0), (12, 3), (16, 41), (33, 5), (1, 0), (8, 47)]
+    rings = [(12, 3), (16, 41), (2, 51), (18, 16), (6, 8), (8, 17), (5, 47), (33, 5), (21, 32)]
+    for module, width, depth in (
+        *(("shade_delay", *size) for size in delays),
+        *(("shade_ring", *size) for size in rings),
+    ):
         same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
         word = {"d_i": (0, (1 << width) - 1)}
         yield Case(
-            "shade_delay", form, {"WIDTH": width, "DEPTH": depth}, same, same, same,
+            module, form, {"WIDTH": width, "DEPTH": depth}, same, same, same,
             mixed(word) if width > 20 else None, every(word) if width <= 20 else None, depth, bound=0, unit_f=0,
         )  # fmt: skip
 

@@ -10,12 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 from polyshade.golden import contract as k
-from polyshade.golden import fixed, light, material
+from polyshade.golden import light, material
 from polyshade.golden.reference.light import ROWS
-from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, in_forms, mixed, signed_range
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, mixed, signed_range
+from polyshade.sim.units.light import exact_lobe
 from polyshade.sim.units.normal import unit_vectors
 
-Real = np.float64  # no value here needs more than 53 bits to be right within 2^-30 ulp
 CHUNK = 25_000
 FEW = 6_250  # rows of a run where one case has all models
 CODES = range(1 << k.MODEL_W)  # reserved ones too
@@ -78,42 +78,61 @@ def vector(i: Arrays, name: str) -> np.ndarray:
 # ---- exact values ------------------------------------------------------------------------------------------------
 
 
-def quotient(code: int, x, nl, nv, vh, inv_n, inv_n_exp) -> np.ndarray:
-    """What num of ``golden.light.geometry`` is divided by, inverted; N.H and r rounded as its docstring says."""
-    x, nl, nv, vh = (np.asarray(v, np.int64) for v in (x, nl, nv, vh))
-    nh = np.maximum(fixed.round((1 << k.VERSINE_F) - x, k.VERSINE_F - k.INTENSITY_F), 0)
-    large, small = np.maximum(nl, nv), np.minimum(nl, nv)
-    with np.errstate(divide="ignore"):
+def quotients(code: int, x, nl, nv, vh, cosine: int, inv_n: int, inv_n_exp: int) -> np.ndarray:
+    """g of ``golden.light.geometry`` from numbers, by the models' formulas; 0 where a denominator is 0."""
+    nh, n = np.maximum(1 - x, 0), np.ldexp(Real(ONE), inv_n_exp) / max(inv_n, 1)
+    with np.errstate(divide="ignore", invalid="ignore"):
         if code == k.MODEL_SCHLICK:
-            r = fixed.round(nh * inv_n, k.INTENSITY_F).astype(Real) / ONE
-            return 1 / (np.minimum(x, (2 << k.VERSINE_F) - 1).astype(Real) / (1 << k.VERSINE_F - inv_n_exp) + r)
-        product = large.astype(Real) * small / ONE**2
-        if code == k.MODEL_COOK_TORRANCE:
-            masked = 2 * nh * small < vh * ONE
-            return np.where(masked, 2 / (large.astype(Real) * np.maximum(vh, 1) / ONE**2), 1 / product)
-        return 1 / np.sqrt(product) if code == k.MODEL_WARD else np.ones(x.shape, Real)
+            g = nh / (n * np.minimum(x, 2) + nh)
+        elif code == k.MODEL_COOK_TORRANCE:
+            shares = [np.where(vh > 0, 2 * nh * c / vh, 1) for c in (nl, nv)]
+            g = np.minimum(1, np.minimum(*shares)) / (nl * nv)
+        elif code == k.MODEL_WARD:
+            g = 1 / np.sqrt(nl * nv)
+        elif code in (k.MODEL_PHONG, k.MODEL_BLINN):
+            g = nl if cosine else np.ones_like(x)
+        else:
+            g = np.zeros_like(x)
+    return np.where(np.isfinite(g), g, 0)
 
 
-def amplified(shape, num, fresnel, factor, gain: int, gain_exp: int) -> np.ndarray:
-    """shape num fresnel, cut to 32 fraction bits, times factor and gain, limited to what S1.16 holds, in ulp."""
-    product = shape * num * fresnel >> k.INTENSITY_F
-    value = product.astype(Real) * np.where(product > 0, factor, 0) * np.ldexp(Real(gain), gain_exp)
-    return np.ldexp(value, -2 * k.INTENSITY_F).clip(0, LIMITS[1])
+def in_units(value: np.ndarray, exact: np.ndarray, unit: np.ndarray) -> np.ndarray:
+    """What stands for the exact value where an error counts in so many ulp."""
+    return value + (exact - value) / unit
 
 
 def exact_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str) -> Arrays:  # noqa: E741
-    """Light from the angles and the lobe as they are rounded, the rest exactly; flags of the golden model."""
+    """The formulas of the vectors and registers as they are; flags of the golden model.
+
+    The quotients of Cook-Torrance and Ward turn a last bit of N.L and N.V into any number of them where these are near
+    0: what is below 1/16 does not count, nor what the golden model tells to have no light.
+    """
     _, specular, flags = light.reflectance(n, l, v, h, vh, fresnel, material_, FORMS[form])
     if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
-        return {"diffuse_o": _dot(n, l) * ONE, "specular_o": specular, "flags_o": flags}
-    _, nl, nv, x, *_, lost = light.angles(code == k.MODEL_PHONG, n, l, v, h, FORMS[form])
-    shape = ONE if code == k.MODEL_SCHLICK else light.lobe(x, *(material_[name] for name in light.LOBE))
-    more = [material_[name] for name in ("inv_n", "inv_n_exp")]
-    num = light.geometry(code, x, nl, nv, vh, material_["cosine"], *more)[0]
-    factor = quotient(code, x, nl, nv, vh, *more)
-    shape = np.where(lost & (code > k.MODEL_PHONG), 0, shape)
-    value = amplified(shape, num, fresnel, factor, material_["gain"], material_["gain_exp"])
-    return {"diffuse_o": _dot(n, l) * ONE, "specular_o": value, "flags_o": flags}
+        return {"diffuse_o": _dot(n, l) * ONE, "specular_o": np.zeros(specular.shape), "flags_o": flags}
+    real = [np.asarray(u, Real) / ONE for u in (n, l, v, h)]
+    nl, nv = (_sum(real[0], other) for other in real[1:3])
+    a, b = real[0], real[3]
+    if code == k.MODEL_PHONG:
+        lowest, highest = (limit / ONE for limit in LIMITS)
+        a, b = ((2 * nl).clip(-highest, 2) * real[0] - real[1]).clip(lowest, highest), real[2]
+    chord = ((a - b) * ONE).clip(*LIMITS) / ONE
+    x = (_sum(chord, chord) / 2 if form == "refined" else 1 - _sum(a, b)).clip(0, 2)
+    nl, nv = nl.clip(0, 1), nv.clip(0, 1)
+    shape = 1 if code == k.MODEL_SCHLICK else _lobe(np.ldexp(x, k.VERSINE_F), material_)
+    more = [material_[name] for name in ("cosine", "inv_n", "inv_n_exp")]
+    g = quotients(code, x, nl, nv, np.asarray(vh, Real) / ONE, *more)
+    gain = np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
+    value = (shape * g * np.asarray(fresnel, Real) * gain).clip(0, LIMITS[1])
+    clear = (flags >> k.LIGHT_ZERO & 1) == 0
+    if code in (k.MODEL_COOK_TORRANCE, k.MODEL_WARD):
+        clear &= (nl >= SAFE / ONE) & (nv >= SAFE / ONE)
+    return {"diffuse_o": _dot(n, l) * ONE, "specular_o": np.where(clear, value, specular), "flags_o": flags}
+
+
+def _lobe(x: np.ndarray, material_: dict[str, int]) -> np.ndarray:
+    words = {name: material_[name] for name in light.LOBE}
+    return exact_lobe(x, **words | {"power": min(words["power"], material.STAGES)})
 
 
 def ideal_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str) -> Arrays:  # noqa: E741
@@ -138,16 +157,9 @@ def ideal_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, f
     if code == k.MODEL_SCHLICK:
         shape = nh.clip(0) / (x / (material_["inv_n"] / ONE) * 2.0 ** material_["inv_n_exp"] + nh.clip(0))
     else:
-        shape = _lobe(x, **{name: material_[name] for name in light.LOBE})
+        shape = _lobe(np.ldexp(x, k.VERSINE_F), material_)
     value = shape * g * fresnel * np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
     return rounded | {"specular_o": np.where(clear, value.clip(0, LIMITS[1]), rounded["specular_o"])}
-
-
-def _lobe(x: np.ndarray, k1: int, k2: int, shift: int, xmax: int, power: int) -> np.ndarray:
-    for_x, for_k = (1, 1 << k.LOBE_FINE_F) if shift == k.LOBE_FINE else (1 << shift, 1)
-    limited = np.minimum(x * for_x, xmax / ONE)
-    base = 1 - (k1 / (1 << k.LOBE_K1_F) - k2 / (1 << k.LOBE_K2_F) * limited) * limited / for_k
-    return np.where(x <= 1, base.clip(0, 1) ** (1 << power), 0)
 
 
 def _sum(a, b) -> np.ndarray:
@@ -191,12 +203,13 @@ def _angles(form: str) -> Iterator[Case]:
         return dict(zip(names, values, strict=True))
 
     def exact(i: Arrays) -> Arrays:
-        """x of R as shade_reflect rounds it."""
-        n, l, v, h = (vector(i, name) for name in "nlvh")  # noqa: E741
-        a, b = (np.stack(light.reflect(*n, *l)), v) if i["mirror_i"][0] else (n, h)
-        chord = ((a - b).clip(*LIMITS).astype(Real) ** 2).sum(axis=0) / 2
-        x = chord if form == "refined" else ONE**2 - _sum(a.astype(Real), b)
-        cosines = [_dot(n, l) * ONE, *((_sum(n, other).astype(Real) / ONE).clip(0, ONE) for other in (l, v))]
+        n, l, v, h = (vector(i, name).astype(Real) for name in "nlvh")  # noqa: E741
+        a, b = n, h
+        if i["mirror_i"][0]:
+            a, b = ((2 * _sum(n, l) / ONE).clip(-LIMITS[1], 2 * ONE) * n / ONE - l).clip(*LIMITS), v
+        chord = ((a - b).clip(*LIMITS) ** 2).sum(axis=0) / 2
+        x = chord if form == "refined" else Real(ONE) ** 2 - _sum(a, b)
+        cosines = [_dot(n, l) * ONE, *((_sum(n, other) / ONE).clip(0, ONE) for other in (l, v))]
         x = np.ldexp(x, k.VERSINE_F - 2 * k.INTENSITY_F).clip(0, 2 << k.VERSINE_F)
         return golden(i) | dict(zip(names, (*cosines, x), strict=False))
 
@@ -207,6 +220,7 @@ def _angles(form: str) -> Iterator[Case]:
             lambda rng, rows, local=local, reflect=reflect: vectors(rng, rows, local, reflect), None,
             k.LATENCY_HALFWAY + 1 + k.LATENCY_VERSINE if local else latency,
             late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
+            bound=64 if reflect else 1 / 2,  # of R, V: R's 1.5 ulp of S1.16 in three components, times |R - V|
         )  # fmt: skip
 
 
@@ -237,16 +251,19 @@ def _factors(form: str) -> Iterator[Case]:
         }
 
     def divided(i: Arrays) -> Arrays:
+        """num such that num (1 + w) 2^e is the exact g; the other outputs as they are."""
         golden = geometry(i)
-        settings = (int(i[f"{name}_i"][0]) for name in ("inv_n", "inv_n_exp"))
-        q = quotient(int(i["model_i"][0]), *arguments(i), *settings)
-        w = np.ldexp(np.where(golden["num_o"] > 0, np.ldexp(q, -golden["e_o"]) - 1, 0), k.FACTOR_F)
-        return golden | {"w_o": np.where(golden["num_o"] > 0, w, golden["w_o"])}
+        settings = (int(i[f"{name}_i"][0]) for name in ("cosine", "inv_n", "inv_n_exp"))
+        x, *cosines = (value.astype(Real) for value in arguments(i))
+        numbers = (np.ldexp(x, -k.VERSINE_F), *(c / ONE for c in cosines))
+        g = quotients(int(i["model_i"][0]), *numbers, *settings)
+        scale = np.ldexp(1 + np.ldexp(golden["w_o"].astype(Real), -k.FACTOR_F), golden["e_o"])
+        return golden | {"num_o": np.where(golden["zero_o"], 0, g / scale * ONE)}
 
     yield Case(
         "shade_geometry", form, {}, geometry, divided, divided, cosines, None, k.LATENCY_GEOMETRY,
         more_f={"w_o": k.FACTOR_F}, chunk=FEW,
-        bound=2.6,  # of 1 + w: the root's 0.85/4 and d's 1/2, times 2.83 by squaring and doubling, and 1/2
+        bound=1.8,  # of num (1 + w) 2^e: num's 1/2; w's 2.6, of two bits more, where 1 + w is at least 1/2
     )  # fmt: skip
 
     def factors(rng: np.random.Generator, rows: int) -> Arrays:
@@ -270,15 +287,18 @@ def _factors(form: str) -> Iterator[Case]:
         return dict(zip(("s_o", "saturated_o"), values, strict=True))
 
     def product(i: Arrays) -> Arrays:
-        exponent = np.minimum(i["e_i"] + i["gain_exp_i"], 31)
-        factor = np.ldexp(1 + i["w_i"].astype(Real) / (1 << k.FACTOR_F), exponent)
-        value = amplified(i["lobe_i"], i["num_i"], i["fresnel_i"], factor, i["gain_i"][0], 0)
-        return gain(i) | {"s_o": value}
+        """In units of the last bit, or of 2^-32 of lobe num fresnel, where what is below is cut, if that is more."""
+        golden, exponent = gain(i), np.minimum(i["e_i"] + i["gain_exp_i"], 31)
+        shape = i["lobe_i"].astype(Real) * i["num_i"] * i["fresnel_i"]
+        factor = (1 + np.ldexp(i["w_i"].astype(Real), -k.FACTOR_F)) * i["gain_i"]
+        value = np.ldexp(shape * factor, exponent - 3 * k.INTENSITY_F).clip(0, LIMITS[1])
+        unit = np.ldexp(Real(1), np.maximum(exponent - k.INTENSITY_F, 0))
+        return golden | {"s_o": in_units(golden["s_o"], value, unit)}
 
     for vectors, note in ((factors, ""), (brim, "brim")):
         yield Case(
             "shade_gain", form, {}, gain, product, product, vectors, None, k.LATENCY_GAIN, chunk=FEW, note=note,
-            bound=2.5,  # 1/2, and the rounding of a factor of at least 1/2, in light of at most 2
+            bound=3.5,  # 1/2, 1 for what is cut, the rounding of a factor of at least 1/2 in light of at most 2
         )  # fmt: skip
 
 
@@ -293,17 +313,25 @@ def _nodes(form: str) -> Iterator[Case]:
         """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs. What is left out at the
         ``point`` has no formula: there RTL and golden model are compared, and no more."""
         built = [point.get(name, 1) for name in ("REFLECT", "DIVIDE")]
+        missing = [k.MODEL_PHONG] * (not built[0])
+        missing += [k.MODEL_SCHLICK, k.MODEL_COOK_TORRANCE, k.MODEL_WARD] * (not built[1])
 
         def golden(i: Arrays) -> Arrays:
             return dict(zip(outputs, light.reflectance(*inner(i), words(i), FORMS[form], *built), strict=True))
 
         def formula(of: Callable) -> Callable[[Arrays], Arrays]:
-            return golden if 0 in built else lambda i: of(int(i["model_i"][0]), words(i), *inner(i), form)
+            def value(i: Arrays) -> Arrays:
+                code = int(i["model_i"][0])
+                return golden(i) if code in missing else of(code, words(i), *inner(i), form)
+
+            return value
 
         return Case(
             module, form, {"FORM": FORMS[form]} | point, golden, formula(exact_light), formula(ideal_light), vectors,
             None, latency, clocks, chunk=chunk, note=note, late=late or {},
-            bound=4.5,  # of geometry and gain together, 2^-15 of light of at most 2, and 1/2
+            # light of at most 2 falls by 2 n times what x lacks, 1/2 ulp of U2.20: n / 16, 64 at n = 1024; the lobe's
+            # 1.2 times the gain of these materials, 16 at most; as much again by H's and V.H's roundings
+            bound=200 if module == "shade_light_local" else 84,
         )  # fmt: skip
 
     for code, name in NAMES.items():

@@ -37,22 +37,26 @@ module shade_direct_setup (
   shade_pkg::vec_t now_q, n_q, c_q;
   logic [EXP_W-1:0] exp_q, exp_c_q;
   logic [1:0] kind_q;
-  logic [2:0] step_q;
-  logic busy_q, skip_q, wide_q, last, load, room;
-  logic [2:0] steps;  // of the vector at hand, less 1
-  assign steps = skip_q ? 3'd0 : kind_q == NORMAL ? 3'd2 : kind_q == LINE && wide_q ? 3'd4 : 3'd3;
-  assign last  = !busy_q || step_q == steps;
+  logic [2:0] step_q, left_q;
+  logic busy_q, skip_q, last_q, skip, last, load, room;
+  logic [2:0] steps;  // of the vector that comes, less 1
+  assign steps = skip ? 3'd0 : kind_i == NORMAL ? 3'd2 : kind_i == LINE && wide_i ? 3'd4 : 3'd3;
+  assign skip  = (kind_i == 2'd1 && !wide_i) || (kind_i == LINE && !tall_i);
+  assign last  = !busy_q || last_q;
   assign ready_o = last && (kind_i != NORMAL || room);
   assign load  = valid_i && ready_o;
   always_ff @(posedge clk_i) begin
     step_q <= step_q + 3'd1;
+    left_q <= left_q - 3'd1;
+    last_q <= left_q == 3'd1;
     if (load) begin
       now_q  <= vector_i.mantissa;
       exp_q  <= kind_i == NORMAL ? '0 : vector_i.exp;
       kind_q <= kind_i;
       step_q <= 3'd0;
-      skip_q <= (kind_i == 2'd1 && !wide_i) || (kind_i == LINE && !tall_i);
-      wide_q <= wide_i;
+      left_q <= steps;
+      last_q <= skip;
+      skip_q <= skip;
       if (kind_i == 2'd1) n_q <= now_q;
       if (kind_i == LINE) c_q <= now_q;
       if (kind_i == LINE) exp_c_q <= exp_q;

@@ -228,25 +228,25 @@ def check(proof: Proof) -> list[dict]:
     ]
 
 
-def mutated(proof: Proof, name: str, folder: Path) -> list[Path]:
+def mutated(proof: Proof, name: str) -> dict[Path, str]:
     """The sources of a proof with the mutant of a property. Raises UserError where its text is not there just once."""
     old, new = proof.mutants[name]
-    folder.mkdir(parents=True)
-    files, places = [], 0
-    for path in sources(proof):
-        places += path.read_text().count(old) * (path.stem in proof.modules)
-        files.append(folder / path.name)
-        files[-1].write_text(path.read_text().replace(old, new) if path.stem in proof.modules else path.read_text())
-    if places != 1:
+    texts = {path: path.read_text() for path in sources(proof)}
+    chosen = [path for path in texts if path.stem in proof.modules]
+    if (places := sum(texts[path].count(old) for path in chosen)) != 1:
         raise UserError(f"{proof.source.name}: mutant of {name}: {places} places have its text, allowed is one")
-    return files
+    return texts | {path: texts[path].replace(old, new) for path in chosen}
 
 
 def killed(proof: Proof, name: str) -> bool:
     """Does the property fail on its mutant?"""
     folder = WORK / re.sub(r"\W+", "_", f"{proof.title} {name}")
     shutil.rmtree(folder, ignore_errors=True)
-    names = graph(proof, folder, mutated(proof, name, folder / "rtl"))
+    (folder / "rtl").mkdir(parents=True)
+    texts = {folder / "rtl" / path.name: text for path, text in mutated(proof, name).items()}
+    for path, text in texts.items():
+        path.write_text(text)
+    names = graph(proof, folder, list(texts))
     depth = 1 + (proof.window or 24)
     log = abc(f"cone -O {names.index(name)}; scleanup; bmc3 -F {depth} -T {proof.seconds}", folder, proof.seconds)
     return "was asserted in frame" in log
@@ -262,6 +262,9 @@ def main(names: list[str], quick: bool = False) -> int:
         raise UserError(f"{min(unknown)}: is no proof, allowed are {allowed}")
     proofs = [proof for proof in ALL if (proof.quick or not quick) and (proof.name in names or not names)]
     first = {proof.name: proof for proof in reversed(proofs)}  # mutants at the first point of each wrapper
+    for proof in first.values():  # what is wrong is told before the work
+        for name in proof.labels("assert"):
+            mutated(proof, name)
     rows, mutants = [], {}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         jobs = {pool.submit(check, proof): proof for proof in sorted(proofs, key=lambda proof: proof.quick)}

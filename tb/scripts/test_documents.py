@@ -94,6 +94,6 @@ def test_every_table_is_made(tmp_path: Path) -> None:
     for name in tables.TABLES:
         text = f"<!-- table: {name} -->\n<!-- end -->"
         assert tables.filled(text, figures).count("\n|") >= 2, name
-        assert "Not measured yet" in tables.filled(text, {})
+        assert ("Not measured yet" in tables.filled(text, {})) == (not name.startswith("short_"))
     shown = tables.filled("<!-- table: machines -->\n<!-- end -->", figures)
     assert "| patch, 4 lanes, 6 models, 4 lights | 1 | 2 | 3 | 150 | 0.950 | – | 0.20 | 1.0e-7 | 2.5e-6 |" in shown

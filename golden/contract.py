@@ -277,7 +277,8 @@ LATENCY_NODE_CHAIN = 2 * LATENCY_INVC + LATENCY_SCALE3
 LATENCY_METRIC = 1 + LATENCY_HALF + 1  # clamps, decisions
 LATENCY_CRITERION = 1 + 2 * LATENCY_MUL + 2 + LATENCY_WEIGH + 1  # u, u^2, u^4, sums of the edges, decision
 LATENCY_INCREMENT = 2  # sum, rounding
-LATENCY_MIDDLE = LATENCY_DOT3 + LATENCY_INVC + 1 + LATENCY_SCALE3  # cosine, factor, choice, scaling
+LATENCY_FACTOR_S = LATENCY_DOT3 + LATENCY_INVC + 1  # cosine, factor, choice
+LATENCY_MIDDLE = LATENCY_FACTOR_S + LATENCY_SCALE3  # cosine, factor, choice, scaling
 LATENCY_PIXEL_NORMALS = 2 + LATENCY_INCREMENT + LATENCY_NORMALIZE + 1 + LATENCY_MIDDLE + LATENCY_FIFO
 LATENCY_VERSINE = 1 + LATENCY_MUL + 3  # differences, squares, two adders, clamp
 LATENCY_REFLECT = LATENCY_DOT3 + 2 + LATENCY_MUL + 2  # N.L, its sign and range, products, difference, range
@@ -301,14 +302,17 @@ LATENCY_PLANNER = LATENCY_KAPPA + 14  # see shade_planner
 LATENCY_PLANNER_FOLDED = LATENCY_PLANNER + LATENCY_KAPPA_FOLDED - LATENCY_KAPPA
 LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 5  # the choice of a run, its step, the run, its node, the rounding
+LATENCY_LINE = LATENCY_PLANNER + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK + LATENCY_UNIT  # span to its first normal
+LATENCY_LINE_FOLDED = (
+    -(-(LATENCY_PLANNER_FOLDED + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK) // 6) * 6 + LATENCY_UNIT_FOLDED
+)
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 LATENCY_RECORD = 1 + LATENCY_LIGHT + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF  # normal to pixel
-LATENCY_LANE = LATENCY_PLANNER + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK + LATENCY_UNIT + LATENCY_RECORD
+LATENCY_LANE = LATENCY_LINE + LATENCY_RECORD
 LATENCY_LANE_NORMALS = LATENCY_PIXEL_NORMALS + LATENCY_RECORD  # the path of normals
 LATENCY_LANE_FOLDED = (  # parts with FOLD = 6 take what comes in every sixth clock
-    -(-(LATENCY_PLANNER_FOLDED + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK) // 6) * 6
-    + -(-(LATENCY_UNIT_FOLDED + 1) // 6) * 6
+    -(-(LATENCY_LINE_FOLDED + 1) // 6) * 6
     + (LATENCY_LIGHT_FOLDED + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF)
 )
 LATENCY_CORE = 1 + LATENCY_LANE  # the door
@@ -333,16 +337,11 @@ PRODUCTS_REFLECT = 3  # more with REFLECT = 1
 PRODUCTS_DIVIDE = 6  # more with DIVIDE = 1
 PRODUCTS_HORNER = 6  # of a channel of a pixel; forward differences: none
 
-# ---- error bits of shade_poly_span; of shade_pixel_normals the first two and those below -------------------------
-ERROR_EMPTY = 0  # a span of 0 pixels
-ERROR_LONG = 1  # more pixels than 2^LOG2_MAX
-ERROR_DIRECT = 2  # direct mode with more than four pixels
+# ---- error bits of shade_patch --------------------------------------------------------------------------------
+ERROR_EMPTY = 0  # a triangle without a box
+ERROR_LONG = 1  # a run that is empty, beyond the box or out of order
+ERROR_DIRECT = 2  # a packet that ends in its head
 ERROR_W = 3
-
-# ---- error bits of shade_pixel_normals ------------------------------------------------------------------------
-LINE_ERROR_METRIC = 2  # V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
-LINE_ERROR_THRESHOLD = 3  # threshold outside [0, 1]; taken as 0 or 1
-LINE_ERROR_W = 4
 
 # ---- error bits of shade_direct ----------------------------------------------------------------------------------
 DIRECT_EMPTY = 0  # a run of 0 pixels that is not its triangle's last one
@@ -352,11 +351,6 @@ DIRECT_ORDER = 3  # a run that is not below the last good one of its triangle
 DIRECT_SHORT = 4  # a pixel whose normal is shorter than 1/2
 DIRECT_LARGE = 5  # a pixel whose normal is longer than 1
 DIRECT_ERROR_W = 6
-
-# ---- what a lane tells of a node, beside and above the bits LIGHT_* --------------------------------------------------
-LANE_NORMAL_ZERO = 4  # a normal of length 0
-LANE_NORMAL_SHORT = 5  # a normal too short to be brought to length 1
-LANE_FLAGS_W = 6
 
 
 def constants() -> dict[str, int]:

@@ -15,15 +15,16 @@ from . import contract as k
 from . import registers
 from .fixed import Int, integers, saturate
 from .light import colour, light
-from .normal import line_errors, pixel_normals, unit
-from .plan import Nodes, node_walk, planner
+from .normal import line_errors, pixel_normals
+from .plan import Nodes, line
 from .poly import poly_span
+from .types import NODE_FLAGS
 
 
 class Drawn(NamedTuple):
     """What a core makes of its spans: ``pixels`` (P, 2) U0.16, diffuse and specular; ``span`` (P,) of every pixel.
 
-    ``flags`` (T,): bits LIGHT_* and LANE_* of every place where light was computed, T in number; ``records``: their
+    ``flags`` (T,): bits of ``node_flags_t`` of every place where light was computed, T in number; ``records``: their
     number.
     """
 
@@ -34,14 +35,13 @@ class Drawn(NamedTuple):
 
 
 class Told(NamedTuple):
-    """What a core gives and tells: ``pixels`` (P, 2), or coloured (P, 3), U0.16; ``span``, ``lane`` (P,) of each.
+    """What a core gives and tells: ``pixels`` (P, 2), or coloured (P, 3), U0.16; ``span`` (P,) of each.
 
     ``counters`` and ``status``: by the names of ``golden.registers``, what does not depend on the clock.
     """
 
     pixels: Int
     span: Int
-    lane: Int
     counters: dict[str, int]
     status: dict[str, int]
 
@@ -84,32 +84,34 @@ def lane(
         diffuse, specular, flags = light(*normal.T, draw, form, reflect, divide)
         return Drawn(saturate(np.stack([diffuse, specular], -1), k.PIXEL_W), span, flags, len(span))
 
-    flat = flat & (draw["model"] == k.MODEL_LAMBERT)
-    thresholds = tuple(draw[name] for name in ("t1", "t2", "t3"))
-    sharpness = draw["sharpness"], draw["sharpness_exp"]
-    planned = planner(*g.T, count, *sharpness, thresholds, draw["fixed_degree"], flat)
-    nodes = node_walk(n, g, *planned)
-    owner = nodes.span[nodes.record]
-    *normal, zero, short = unit(*nodes.vector.T, flat[owner])
-    diffuse, specular, flags = light(*normal, draw, form, reflect, divide)
-    flags = flags | zero << k.LANE_NORMAL_ZERO | short << k.LANE_NORMAL_SHORT
+    nodes, normal, zero, short = line(n, g, count, draw, flat)
+    diffuse, specular, flags = light(*normal.T, draw, form, reflect, divide)
+    flags = flags | zero << NODE_FLAGS.leaf("normal_zero").lsb | short << NODE_FLAGS.leaf("normal_short").lsb
     records = collect(nodes, np.stack([diffuse, specular], -1))
     pixels, record = poly_span(records, nodes.degree, nodes.count, evaluator=evaluator, form=form)
     return Drawn(pixels, nodes.span[record], flags, len(nodes.span))
 
 
+def counted(drawn: Drawn) -> tuple[dict[str, int], dict[str, int]]:
+    """Counters, and bits of STATUS that tell of points, by the names of ``golden.registers``, when all is drawn."""
+    flags = int(np.bitwise_or.reduce(drawn.flags, initial=0))
+    counters = {"pixels": len(drawn.pixels), "spans": len(np.unique(drawn.span)), "evaluations": len(drawn.flags)}
+    told = (field for field in registers.faults() if field.path.startswith("node."))
+    return counters, {field.name: flags >> bit & 1 for bit, field in enumerate(told)}
+
+
 def core(
     n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], *, torn: ArrayLike = 0,
-    flat: ArrayLike = 0, cosine: ArrayLike = 0, lanes: int = 1, colour: int = 0, path_normals: int = 1, **built: int,
+    flat: ArrayLike = 0, cosine: ArrayLike = 0, colour: int = 0, path_normals: int = 1, **built: int,
 ) -> Told:  # fmt: skip
-    """Spans as packets, of any length; the good ones go to the lanes in turn (``shade_core``).
+    """Spans as packets, of any length (``shade_core``). Which lane draws a span depends on which of them has room.
 
     ``torn`` (S,): packets cut short or too long. Of these, of spans of 0 pixels and of more than 4096 nothing comes.
     ``colour``: pixels are coloured. Others as in ``lane``.
 
-    >>> told = core([[0, 0, 1 << 29]] * 3, [[0, 0, 0]] * 3, [1, 0, 1], {}, lanes=2)
-    >>> told.span.tolist(), told.lane.tolist(), told.counters["errors"], told.status["error_empty"]
-    ([0, 2], [0, 1], 1, 1)
+    >>> told = core([[0, 0, 1 << 29]] * 3, [[0, 0, 0]] * 3, [1, 0, 1], {})
+    >>> told.span.tolist(), told.counters["errors"], told.status["error_empty"]
+    ([0, 2], 1, 1)
     """
     n, g = integers(n, g)
     count, torn, flat, cosine = np.broadcast_arrays(*integers(count, torn, flat, cosine))
@@ -119,32 +121,19 @@ def core(
     drawn = lane(
         n[good], g[good], count[good], draw, flat=flat[good], cosine=cosine[good], path_normals=path_normals, **built
     )
-
+    counters, status = counted(drawn)
     normals = path_normals and draw["path"] == k.PATH_NORMALS
-    errors = int(np.bitwise_or.reduce(line_errors(count[good], draw["variant"], draw["threshold"]), initial=0))
-    flags = int(np.bitwise_or.reduce(drawn.flags, initial=0))
-    status = {
+    metric, threshold = (np.any(bits) for bits in line_errors(count[good], draw["variant"], draw["threshold"]))
+    status |= {
         "error_empty": np.any(empty & (torn == 0)),
         "error_long": np.any(long & (torn == 0)),
         "error_packet": np.any(torn),
-        "error_metric": normals and errors >> k.LINE_ERROR_METRIC & 1,
-        "error_threshold": normals and errors >> k.LINE_ERROR_THRESHOLD & 1,
-        "light_model": flags >> k.LIGHT_MODEL & 1,
-        "light_range": flags >> k.LIGHT_RANGE & 1,
-        "light_zero": flags >> k.LIGHT_ZERO & 1,
-        "light_saturated": flags >> k.LIGHT_SATURATED & 1,
-        "normal_zero": flags >> k.LANE_NORMAL_ZERO & 1,
-        "normal_short": flags >> k.LANE_NORMAL_SHORT & 1,
-    }
-    counters = {
-        "pixels": len(drawn.pixels),
-        "spans": len(good),
-        "evaluations": len(drawn.flags),
-        "errors": len(count) - len(good),
+        "error_metric": normals and metric,
+        "error_threshold": normals and threshold,
     }
     return Told(
-        paint(drawn.pixels, draw) if colour else drawn.pixels, good[drawn.span], drawn.span % lanes, counters,
-        {name: int(bit) for name, bit in status.items()},
+        paint(drawn.pixels, draw) if colour else drawn.pixels, good[drawn.span],
+        counters | {"errors": len(count) - len(good)}, {name: int(bit) for name, bit in status.items()},
     )  # fmt: skip
 
 
@@ -170,7 +159,7 @@ def phong(
 ) -> tuple[Int, Int]:  # fmt: skip
     """A unit normal and light at every pixel (``shade_phong``): (pixels (P, 2) U0.16, index of their span (P,)).
 
-    Spans as in ``lane``; those of 0 or of more than 4096 pixels give none.
+    Spans as in ``lane``.
 
     >>> phong([[0, 0, 1 << 29]], [[0, 0, 0]], [2], {})[0].tolist()  # Lambert's light from the viewer
     [[65535, 0], [65535, 0]]

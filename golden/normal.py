@@ -207,6 +207,30 @@ def increment_sum(first: ArrayLike, line: ArrayLike, n: ArrayLike, g: ArrayLike,
     return wrap(position, k.STEP_W)
 
 
+def factor(a: ArrayLike, b: ArrayLike, middle: ArrayLike, variant, needs_d1, threshold) -> Int:
+    """What a + b is multiplied by to get the normal in the middle of a and b, U0.18 (``shade_factor``).
+
+    ``a``, ``b`` (3, ...): unit normals. ``middle`` 0, variants V3, V6, and V1 to V5 where no estimate is below the
+    threshold: 1/2.
+
+    >>> int(factor((0, 0, 65536), (0, 0, 65536), 1, k.VARIANT_REFINED, 0, 0))
+    131072
+    """
+    middle, variant, needs_d1, threshold = integers(middle, variant, needs_d1, threshold)
+    c = dot3(*a, *b)
+    needs_d2 = metric(c, k.METRIC_M_MIN, threshold)[3].astype(bool)
+    first_degree, second_degree = (invc(c, k.FORM_PAPER, degree)[0] for degree in (1, 2))
+    factors = {
+        k.VARIANT_REFINED: (True, invc(c)[0]),
+        k.VARIANT_V1: (needs_d1 > 0, first_degree),
+        k.VARIANT_V2: (needs_d1 > 0, second_degree),
+        k.VARIANT_V4: (needs_d2, first_degree),
+        k.VARIANT_V5: (needs_d2, second_degree),
+    }
+    cases = [(middle > 0) & (variant == code) & needed for code, (needed, _) in factors.items()]
+    return np.select(cases, [value for _, value in factors.values()], 1 << k.INVC_F - 1)  # 1/2: (E + E) / 2 = E
+
+
 def pixel_normals(
     n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, variant: ArrayLike, threshold: ArrayLike
 ) -> tuple[Int, Int]:
@@ -214,15 +238,14 @@ def pixel_normals(
 
     ``n``, ``g`` (S, 3), S2.29: normal of the first pixel and increment; ``count`` (S,) pixels; ``cosine`` (S,) of the
     line's ends, S1.16; ``variant``, ``threshold`` (S,) or one for all. Pixels 0, 2, 4, ... and the last one are
-    normalized, the others are the middle of their neighbours times the variant's factor. Lines without pixels or with
-    too many give none.
+    normalized, the others are the middle of their neighbours times the variant's factor.
 
     >>> pixel_normals([[0, 0, 1 << 29]], [[0, 0, 0]], [2], [65536], k.VARIANT_V3, 0)[0].tolist()
     [[0, 0, 65536], [0, 0, 65536]]
     """
     n, g = integers(n, g)
     count, cosine, variant, threshold = integers(count, cosine, variant, threshold)
-    line, j = walk(np.where(count <= k.PIXELS_MAX, count, 0))
+    line, j = walk(count)
     variant, limit = variant[line], threshold[line]
 
     def exact(i: Int) -> tuple[Int, Int, Int]:
@@ -231,29 +254,16 @@ def pixel_normals(
 
     middle = (j % 2 == 1) & (j < count[line] - 1) & (variant != k.VARIANT_EXACT)
     a, b = exact(j - middle), exact(j + middle)
-    c = dot3(*a, *b)
-    needs_d1 = metric(cosine, count - 1, threshold)[2][line].astype(bool)
-    needs_d2 = metric(c, k.METRIC_M_MIN, limit)[3].astype(bool)
-    first_degree, second_degree = (invc(c, k.FORM_PAPER, degree)[0] for degree in (1, 2))
-    factors = {
-        k.VARIANT_REFINED: (True, invc(c)[0]),
-        k.VARIANT_V1: (needs_d1, first_degree),
-        k.VARIANT_V2: (needs_d1, second_degree),
-        k.VARIANT_V4: (needs_d2, first_degree),
-        k.VARIANT_V5: (needs_d2, second_degree),
-    }
-    cases = [middle & (variant == code) & needed for code, (needed, _) in factors.items()]
-    s = np.select(cases, [factor for _, factor in factors.values()], 1 << k.INVC_F - 1)  # 1/2: (E + E) / 2 = E
+    needs_d1 = metric(cosine, count - 1, threshold)[2][line]
+    s = factor(a, b, middle, variant, needs_d1, limit)
     return np.stack(bisect(*a, *b, s), axis=-1), line
 
 
-def line_errors(count: ArrayLike, variant: ArrayLike, threshold: ArrayLike) -> Int:
-    """The error bits that a line sets; with ERROR_EMPTY or ERROR_LONG it gives no normals (``shade_pixel_normals``)."""
+def line_errors(count: ArrayLike, variant: ArrayLike, threshold: ArrayLike) -> tuple[Int, Int]:
+    """(d1a asked for with fewer than 3 sectors or more than 12, threshold outside [0, 1]): both are clamped."""
     count, variant, threshold = integers(count, variant, threshold)
-    bad = ((count == 0) << k.ERROR_EMPTY) | ((count > k.PIXELS_MAX) << k.ERROR_LONG)
     *_, m_error, threshold_error = metric(0, count - 1, threshold)
-    asks = (variant == k.VARIANT_V1) | (variant == k.VARIANT_V2)
-    return np.where(bad > 0, bad, (m_error & asks) << k.LINE_ERROR_METRIC | threshold_error << k.LINE_ERROR_THRESHOLD)
+    return m_error & ((variant == k.VARIANT_V1) | (variant == k.VARIANT_V2)), threshold_error
 
 
 def pack_lines(

@@ -16,6 +16,7 @@ thresholds are U11.20. Mirrors ``rtl/plan``.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from . import contract as k
 from .fixed import ONE, Int, clamp, integers, round, weigh, wrap
+from .normal import unit
 from .poly import span_log2
 from .stream import walk
 
@@ -231,7 +233,33 @@ class Nodes:
     span: Int  # (R,) of every record, as are:
     count: Int
     degree: Int
+    log2: Int  # of the record's arc in pixels
     more: Int  # the span goes on behind this record
+
+
+def stretch(main: ArrayLike, log2, degree, last_count, last_log2, last_degree) -> dict[str, Int]:
+    """The stretches of planned spans, in order, by the names of ``stretch_t`` (``shade_stretch``); ``span``: whose.
+
+    ``step_log2``: from node to node it is the increment times 2^step_log2.
+
+    >>> {name: value.tolist() for name, value in stretch([2], [4], [3], [9], [3], [1]).items() if name != "span"}
+    {'degree': [3, 1], 'log2': [4, 3], 'count': [16, 9], 'records': [2, 1], 'step_log2': [2, 3], 'shared': [0, 1]}
+    """
+    main, log2, degree, last_count, last_log2, last_degree = integers(
+        main, log2, degree, last_count, last_log2, last_degree
+    )
+    span, index = walk(1 + (main > 0))
+    last = index == (main[span] > 0)
+    kind, length = np.where(last, last_degree[span], degree[span]), np.where(last, last_log2[span], log2[span])
+    return {
+        "span": span,
+        "degree": kind,
+        "log2": length,
+        "count": np.where(last, last_count[span], np.int64(1) << log2[span]),
+        "records": np.where(last, 1, main[span]),
+        "step_log2": np.where(kind > 0, length + 1 - kind, 0),
+        "shared": ((index > 0) & (degree[span] > 0)).astype(np.int64),
+    }
 
 
 def node_walk(n: ArrayLike, g: ArrayLike, main, log2, degree, last_count, last_log2, last_degree) -> Nodes:
@@ -259,4 +287,22 @@ def node_walk(n: ArrayLike, g: ArrayLike, main, log2, degree, last_count, last_l
     at, owner = (index << log2[span])[record] + steps, span[record]
     vector = wrap(n[owner] + at[:, None] * g[owner], k.STEP_W)
     rounded = np.minimum(round(vector, k.STEP_F - k.NODE_F), (1 << k.INTENSITY_W - 1) - 1)
-    return Nodes(rounded, slot, (continued[record] & (node == 0)).astype(np.int64), record, span, count, kind, 1 - last)
+    return Nodes(
+        rounded, slot, (continued[record] & (node == 0)).astype(np.int64), record, span, count, kind, length, 1 - last
+    )
+
+
+def line(n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], flat: ArrayLike = 0):
+    """(nodes, unit normals (T, 3) S1.16, 1 where one is zero, too short (T,)) of spans (``shade_line``).
+
+    ``draw``: settings by the names of ``golden.registers``. ``flat``: with Lambert's light alone one line without
+    normalizing.
+    """
+    n, g = integers(n, g)
+    (flat,) = integers(flat)
+    flat = np.broadcast_to(flat & (draw["model"] == k.MODEL_LAMBERT), np.shape(count))
+    thresholds = tuple(draw[name] for name in ("t1", "t2", "t3"))
+    sharpness = draw["sharpness"], draw["sharpness_exp"]
+    nodes = node_walk(n, g, *planner(*g.T, count, *sharpness, thresholds, draw["fixed_degree"], flat))
+    *normal, zero, short = unit(*nodes.vector.T, flat[nodes.span[nodes.record]])
+    return nodes, np.stack(normal, axis=-1), zero, short

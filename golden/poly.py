@@ -144,24 +144,13 @@ def span_log2(count: ArrayLike) -> Int:
     return sum((steps >> bit > 0).astype(np.int64) for bit in range(k.COUNT_W))
 
 
-def span_errors(degree: ArrayLike, count: ArrayLike, *, log2_max: int = k.LOG2_MAX) -> Int:
-    """The error bits of a span (``shade_span_walk``); a span with any of them set gives no pixels."""
-    degree, count = integers(degree, count)
-    return (
-        ((count == 0).astype(np.int64) << k.ERROR_EMPTY)
-        | ((count > 1 << log2_max).astype(np.int64) << k.ERROR_LONG)
-        | (((degree == k.DEGREE_DIRECT) & (count > k.DIRECT_MAX)).astype(np.int64) << k.ERROR_DIRECT)
-    )
+def span_walk(count: ArrayLike) -> tuple[Int, Int]:
+    """The pixels of a sequence of records, in order: (index of the record, index j of the pixel in it).
 
-
-def span_walk(degree: ArrayLike, count: ArrayLike, *, log2_max: int = k.LOG2_MAX) -> tuple[Int, Int]:
-    """The pixels of a sequence of spans, in order: (index of the span, index j of the pixel in it), of the good ones.
-
-    >>> [v.tolist() for v in span_walk([3, 0], [3, 2])]
+    >>> [v.tolist() for v in span_walk([3, 2])]
     [[0, 0, 0, 1, 1], [0, 1, 2, 0, 1]]
     """
-    degree, count = integers(degree, count)
-    return walk(np.where(span_errors(degree, count, log2_max=log2_max) == 0, count, 0))
+    return walk(count)
 
 
 def poly_span(
@@ -172,20 +161,19 @@ def poly_span(
     evaluator: int = k.EVALUATOR_HORNER,
     node_set: int = k.NODES_LEFT,
     form: int = k.FORM_REFINED,
-    log2_max: int = k.LOG2_MAX,
 ) -> tuple[Int, Int]:
     """The pixels of a sequence of spans (``shade_poly_span``): (pixels (P, 2) U0.16, index of their span (P,)).
 
     ``nodes`` (S, 2, 4) S1.16: of every span and channel (diffuse, specular) the intensities at the nodes of its degree,
-    t = 0 first; in direct mode those of its pixels. ``degree`` (S,) 0 .. 3, ``count`` (S,) pixels. Values are clamped
-    to [0, 1 - 2^-16]; spans with an error give no pixels.
+    t = 0 first; in direct mode those of its pixels. ``degree`` (S,) 0 .. 3, ``count`` (S,) pixels, in direct mode at
+    most 4. Values are clamped to [0, 1 - 2^-16].
 
     >>> poly_span([[[0, 32768, 0, 0], [16384, 16384, 0, 0]]], [1], [3])[0].tolist()
     [[0, 16384], [16384, 16384], [32768, 16384]]
     """
     (nodes,) = integers(nodes)
     degree, count = integers(degree, count)
-    span, j = span_walk(degree, count, log2_max=log2_max)
+    span, j = span_walk(count)
     direct = np.flatnonzero(degree[span] == k.DEGREE_DIRECT)
     a, b, c, d = (v[span] for v in coef(degree[:, None], *np.moveaxis(nodes, -1, 0), nodes=node_set, form=form))
     d[direct] = nodes[span[direct], :, j[direct]]
@@ -208,5 +196,5 @@ def pack_spans(
     lit = {
         f"{name}.n{i}": nodes[:, c, i] for c, name in enumerate(("diffuse", "specular")) for i in range(k.NODE_COUNT)
     }
-    head = {"count": count, "more": more, "degree": degree, "tag": tag}
+    head = {"count": count, "more": more, "degree": degree, "tag": tag, "log2": span_log2(count)}
     return pack(RECORD, lit | {f"head.{name}": value for name, value in head.items()})

@@ -98,7 +98,12 @@ GROUPS: dict[str, tuple[Register, ...]] = {
                 _put("control.colour", 1),
                 _put("control.variant", 4, meaning=f"of path 1, {_codes('VARIANT')}"),
                 _put("control.fixed_degree", 8),
-                Field("clear", 1, "writing 1: counters and STATUS become 0, the next span goes to lane 0", lsb=31),
+                Field(
+                    "clear",
+                    1,
+                    "writing 1: counters and STATUS become 0, also while busy; spans are not touched",
+                    lsb=31,
+                ),
             ),
         ),
         *_group(

@@ -201,6 +201,7 @@ HEAD = Struct(
         Field("more", 1, "the span goes on in the next record: no tlast after this one"),
         Field("degree", k.DEGREE_W, "DEGREE_*"),
         Field("tag", k.TAG_W, "given back with every pixel"),
+        Field("log2", k.LOG2_W, "log2 of the arc in pixels: the least with count - 1 <= 2^log2"),
     ),
 )
 CHANNEL = Struct(
@@ -215,7 +216,7 @@ RECORD = Struct(
         _part("diffuse", CHANNEL, "diffuse light at its nodes"),
         _part("specular", CHANNEL, "specular light at its nodes"),
         _part("head", HEAD),
-        _unused(16),
+        _unused(12),
     ),
 )
 GROWTH = Struct(
@@ -446,6 +447,34 @@ COLOURED = _vector("coloured_t", "a coloured pixel", k.PIXEL_W, "U0.16", ("red",
 
 # ---- from a span to its pixels
 
+JOB = Struct(
+    "job_t",
+    "a span on its way to its nodes",
+    (
+        _part("normal", STEP, "interpolated normal of the first pixel"),
+        _part("increment", STEP, "its increment per pixel"),
+        Field("flat", 1, "its normals need no normalizing"),
+        Field("tag", k.TAG_W, "given back with every pixel"),
+    ),
+)
+STRETCH = Struct(
+    "stretch_t",
+    "records of one kind, one after the other",
+    (
+        _part("normal", STEP, "of its first pixel"),
+        _part("step", STEP, "increment of a normal from node to node"),
+        Field("tag", k.TAG_W, "of the span"),
+        Field("flat", 1, "its normals need no normalizing"),
+        Field("degree", k.DEGREE_W, "of its records"),
+        Field("log2", k.LOG2_W, "of the arc of a record"),
+        Field("count", k.COUNT_W, "pixels of a record"),
+        Field("records", k.COUNT_W, "their number"),
+        Field("single", 1, "it is 1"),
+        Field("more", 1, "the span goes on behind it"),
+        Field("shared", 1, "its first node is the last one before"),
+        Field("fresh", 1, "the first of a span"),
+    ),
+)
 PLAN = Struct(
     "plan_t",
     "how a span is cut into records",
@@ -457,6 +486,29 @@ PLAN = Struct(
         Field("last_log2", k.LOG2_W, "log2 of the arc that it lies on"),
         Field("last_degree", k.DEGREE_W, "its degree"),
         Field("split", 1, "main is not 0"),
+    ),
+)
+TOKEN = Struct(
+    "token_t",
+    "a pixel before it is computed: the record's nodes and where on its arc it lies",
+    (
+        _part("diffuse", CHANNEL),
+        _part("specular", CHANNEL),
+        Field("degree", k.DEGREE_W, "of the record"),
+        Field("first", 1, "a segment starts"),
+        Field("last", 1, "the last pixel of a span"),
+        Field("t", k.T_F + 1, "place on the arc", "U1.16"),
+        Field("log2", k.LOG2_W, "of the arc"),
+        Field("tag", k.TAG_W, "of the span"),
+    ),
+)
+DRAWN = Struct(
+    "drawn_t",
+    "a pixel on its way out",
+    (
+        _part("pixel", PIXEL),
+        Field("tag", k.TAG_W, "of its span"),
+        Field("last", 1, "the last pixel of the span"),
     ),
 )
 PLACE = Struct(
@@ -573,6 +625,20 @@ DRAW = Struct(
         _part("colour", COLOUR),
     ),
 )
+COUNTS = Struct(
+    "counts_t",
+    "by how much the counters rise in a clock",
+    tuple(Field(name, 3, "") for name in ("pixels", "spans", "stalls", "evaluations", "errors")),
+)
+PAINTED = Struct(
+    "painted_t",
+    "a coloured pixel on its way out",
+    (
+        _part("pixel", COLOURED),
+        Field("tag", k.TAG_W, "of its span"),
+        Field("last", 1, "the last pixel of the span"),
+    ),
+)
 NODE_FLAGS = Struct(
     "node_flags_t",
     "what can be said of a point: its light and its normal",
@@ -597,12 +663,9 @@ STATUS = Struct(
     "status_t", "what STATUS remembers", (_part("error", ERRORS), _part("node", NODE_FLAGS)),
 )  # fmt: skip
 
-STRUCTS: dict[str, Struct] = {
-    struct.name: struct
-    for struct in (
-        VEC, STEP, RGB, SPAN, GROWTH, TRIANGLE, RUN, OUTWARD, VERTEX, SHORT, CORNER, SIZED, EDGE, WALKED, PAIR, PLANE,
-        SURFACE, SPOT, LOBE, CHORD, SCALARS, COEFFICIENTS, START, MOVES, WAITING, HEAD, CHANNEL, RECORD, PIXEL,
-        COLOURED, PLAN, PLACE, NODE, INTENSITY, FLAGS, COEF, CONTROL, PLANNER, MATERIAL, LIGHT, COLOUR, DRAW,
-        NODE_FLAGS, ERRORS, STATUS,
-    )
-}  # fmt: skip
+STRUCTS: dict[str, Struct] = {part.name: part for part in list(globals().values()) if isinstance(part, Struct)}
+
+
+def constants() -> dict[str, int]:
+    """Bits of every structure, VEC_BITS of ``vec_t``: for widths of ports, where there is no signal to ask."""
+    return {f"{name.removesuffix('_t').upper()}_BITS": struct.width for name, struct in STRUCTS.items()}

@@ -25,6 +25,9 @@ poly/shade_horner_step.sv
 poly/shade_horner_pipe.sv
 poly/shade_horner_seq.sv
 poly/shade_fdiff.sv
+stream/shade_assert.sv
+stream/shade_stable.sv
+stream/shade_credit.sv
 stream/shade_fifo.sv
 stream/shade_walk.sv
 poly/shade_span_walk.sv
@@ -42,7 +45,9 @@ normal/shade_metric.sv
 plan/shade_criterion.sv
 plan/shade_kappa.sv
 plan/shade_planner.sv
+plan/shade_stretch.sv
 plan/shade_node_walk.sv
+plan/shade_line.sv
 raster/shade_vertices.sv
 raster/shade_cross.sv
 raster/shade_reciprocal.sv
@@ -56,7 +61,9 @@ raster/shade_starts.sv
 raster/shade_lines.sv
 raster/shade_spans.sv
 normal/shade_increment.sv
+normal/shade_factor.sv
 normal/shade_pixel_normals.sv
+normal/shade_pixel_points.sv
 light/shade_versine.sv
 light/shade_reflect.sv
 light/shade_halfway.sv
@@ -74,6 +81,8 @@ core/shade_collect.sv
 core/shade_paint.sv
 core/shade_phong.sv
 core/shade_registers.sv
+core/shade_door.sv
+core/shade_tally.sv
 core/shade_lane.sv
 core/shade_core.sv
 surface/shade_patch_norm.sv

@@ -294,6 +294,7 @@ package shade_pkg;
   localparam int LATENCY_METRIC = 7;  // clamps, decisions
   localparam int LATENCY_CRITERION = 12;  // u, u^2, u^4, sums of the edges, decision
   localparam int LATENCY_INCREMENT = 2;  // sum, rounding
+  localparam int LATENCY_FACTOR_S = 14;  // cosine, factor, choice
   localparam int LATENCY_MIDDLE = 17;  // cosine, factor, choice, scaling
   localparam int LATENCY_PIXEL_NORMALS = 43;
   localparam int LATENCY_VERSINE = 6;  // differences, squares, two adders, clamp
@@ -318,6 +319,8 @@ package shade_pkg;
   localparam int LATENCY_PLANNER_FOLDED = 34;
   localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 5;  // the choice of a run, its step, the run, its node, the rounding
+  localparam int LATENCY_LINE = 55;  // span to its first normal
+  localparam int LATENCY_LINE_FOLDED = 72;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
@@ -344,16 +347,11 @@ package shade_pkg;
   localparam int PRODUCTS_DIVIDE = 6;  // more with DIVIDE = 1
   localparam int PRODUCTS_HORNER = 6;  // of a channel of a pixel; forward differences: none
 
-  // error bits of shade_poly_span; of shade_pixel_normals the first two and those below
-  localparam int ERROR_EMPTY = 0;  // a span of 0 pixels
-  localparam int ERROR_LONG = 1;  // more pixels than 2^LOG2_MAX
-  localparam int ERROR_DIRECT = 2;  // direct mode with more than four pixels
+  // error bits of shade_patch
+  localparam int ERROR_EMPTY = 0;  // a triangle without a box
+  localparam int ERROR_LONG = 1;  // a run that is empty, beyond the box or out of order
+  localparam int ERROR_DIRECT = 2;  // a packet that ends in its head
   localparam int ERROR_W = 3;
-
-  // error bits of shade_pixel_normals
-  localparam int LINE_ERROR_METRIC = 2;  // V1, V2: a line with fewer than 3 sectors or more than 12; d1a takes 3 or 12
-  localparam int LINE_ERROR_THRESHOLD = 3;  // threshold outside [0, 1]; taken as 0 or 1
-  localparam int LINE_ERROR_W = 4;
 
   // error bits of shade_direct
   localparam int DIRECT_EMPTY = 0;  // a run of 0 pixels that is not its triangle's last one
@@ -363,11 +361,6 @@ package shade_pkg;
   localparam int DIRECT_SHORT = 4;  // a pixel whose normal is shorter than 1/2
   localparam int DIRECT_LARGE = 5;  // a pixel whose normal is longer than 1
   localparam int DIRECT_ERROR_W = 6;
-
-  // what a lane tells of a node, beside and above the bits LIGHT_*
-  localparam int LANE_NORMAL_ZERO = 4;  // a normal of length 0
-  localparam int LANE_NORMAL_SHORT = 5;  // a normal too short to be brought to length 1
-  localparam int LANE_FLAGS_W = 6;
 
   // registers: byte offset, lowest bit of a field, word after reset
   localparam int REG_ID = 0;  // 0x000, ro
@@ -449,6 +442,59 @@ package shade_pkg;
   localparam int REG_KS_B = 288;  // 0x120, rw
   localparam int REG_KS_B_RESET = 65536;  // 0x00010000
 
+  // widths of the structures below
+  localparam int VEC_BITS = 54;
+  localparam int STEP_BITS = 96;
+  localparam int RGB_BITS = 51;
+  localparam int SPAN_BITS = 256;
+  localparam int HEAD_BITS = 36;
+  localparam int CHANNEL_BITS = 72;
+  localparam int RECORD_BITS = 192;
+  localparam int GROWTH_BITS = 64;
+  localparam int TRIANGLE_BITS = 256;
+  localparam int RUN_BITS = 64;
+  localparam int OUTWARD_BITS = 96;
+  localparam int VERTEX_BITS = 256;
+  localparam int SHORT_BITS = 51;
+  localparam int CORNER_BITS = 140;
+  localparam int SIZED_BITS = 180;
+  localparam int EDGE_BITS = 127;
+  localparam int WALKED_BITS = 39;
+  localparam int PAIR_BITS = 64;
+  localparam int PLANE_BITS = 128;
+  localparam int SPOT_BITS = 88;
+  localparam int SURFACE_BITS = 440;
+  localparam int LOBE_BITS = 64;
+  localparam int CHORD_BITS = 32;
+  localparam int SCALARS_BITS = 93;
+  localparam int COEFFICIENTS_BITS = 390;
+  localparam int START_BITS = 252;
+  localparam int MOVES_BITS = 58;
+  localparam int WAITING_BITS = 55;
+  localparam int PIXEL_BITS = 32;
+  localparam int COLOURED_BITS = 48;
+  localparam int JOB_BITS = 209;
+  localparam int STRETCH_BITS = 245;
+  localparam int PLAN_BITS = 39;
+  localparam int TOKEN_BITS = 185;
+  localparam int DRAWN_BITS = 49;
+  localparam int PLACE_BITS = 40;
+  localparam int NODE_BITS = 95;
+  localparam int INTENSITY_BITS = 36;
+  localparam int FLAGS_BITS = 4;
+  localparam int COEF_BITS = 93;
+  localparam int CONTROL_BITS = 7;
+  localparam int PLANNER_BITS = 132;
+  localparam int MATERIAL_BITS = 127;
+  localparam int LIGHT_BITS = 125;
+  localparam int COLOUR_BITS = 153;
+  localparam int DRAW_BITS = 544;
+  localparam int COUNTS_BITS = 15;
+  localparam int PAINTED_BITS = 65;
+  localparam int NODE_FLAGS_BITS = 6;
+  localparam int ERRORS_BITS = 5;
+  localparam int STATUS_BITS = 11;
+
   // a vector; of a node, before it is normalized, S2.15
   typedef struct packed {
     logic signed [17:0] z;  // S1.16
@@ -481,6 +527,31 @@ package shade_pkg;
     step_t increment;  // its increment per pixel, the same for all spans of a triangle (P4)
     step_t normal;  // interpolated normal of the first pixel
   } span_t;
+
+  // a record, without the light at its nodes
+  typedef struct packed {
+    logic [3:0] log2;  // log2 of the arc in pixels: the least with count - 1 <= 2^log2
+    logic [15:0] tag;  // given back with every pixel
+    logic [1:0] degree;  // DEGREE_*
+    logic more;  // the span goes on in the next record: no tlast after this one
+    logic [12:0] count;  // pixels, 1 to 4096
+  } head_t;
+
+  // light of one channel at the nodes of a record
+  typedef struct packed {
+    logic signed [17:0] n3;  // S1.16
+    logic signed [17:0] n2;  // S1.16
+    logic signed [17:0] n1;  // S1.16
+    logic signed [17:0] n0;  // S1.16
+  } channel_t;
+
+  // a record: the light at the nodes of one polynomial
+  typedef struct packed {
+    logic [11:0] unused_180;  // ignored
+    head_t head;  // a record, without the light at its nodes
+    channel_t specular;  // specular light at its nodes
+    channel_t diffuse;  // diffuse light at its nodes
+  } record_t;
 
   // what an interpolated normal grows by from pixel to pixel, or from line to line
   typedef struct packed {
@@ -591,6 +662,14 @@ package shade_pkg;
     step_t normal;  // an interpolated normal, or what it grows by
   } plane_t;
 
+  // where a span begins: its first pixel, and depth there and per pixel, modulo 4
+  typedef struct packed {
+    logic signed [31:0] increase;  // S1.30
+    logic signed [31:0] depth;  // S1.30
+    logic [11:0] line;
+    logic [11:0] column;
+  } spot_t;
+
   // a triangle whose runs follow on a stream of their own
   typedef struct packed {
     logic narrow;  // the increments of the normal fit a packet TRIANGLE
@@ -603,14 +682,6 @@ package shade_pkg;
     plane_t dcolumn;  // normal and depth, or what they grow by, modulo 4
     plane_t value;  // at the first pixel of the first run
   } surface_t;
-
-  // where a span begins: its first pixel, and depth there and per pixel, modulo 4
-  typedef struct packed {
-    logic signed [31:0] increase;  // S1.30
-    logic signed [31:0] depth;  // S1.30
-    logic [11:0] line;
-    logic [11:0] column;
-  } spot_t;
 
   // the head of a packet that fills the table of the lobe; entries follow, a beat each, from the first one on
   typedef struct packed {
@@ -683,30 +754,6 @@ package shade_pkg;
     logic [11:0] column;  // its first pixel
   } waiting_t;
 
-  // a record, without the light at its nodes
-  typedef struct packed {
-    logic [15:0] tag;  // given back with every pixel
-    logic [1:0] degree;  // DEGREE_*
-    logic more;  // the span goes on in the next record: no tlast after this one
-    logic [12:0] count;  // pixels, 1 to 4096
-  } head_t;
-
-  // light of one channel at the nodes of a record
-  typedef struct packed {
-    logic signed [17:0] n3;  // S1.16
-    logic signed [17:0] n2;  // S1.16
-    logic signed [17:0] n1;  // S1.16
-    logic signed [17:0] n0;  // S1.16
-  } channel_t;
-
-  // a record: the light at the nodes of one polynomial
-  typedef struct packed {
-    logic [15:0] unused_176;  // ignored
-    head_t head;  // a record, without the light at its nodes
-    channel_t specular;  // specular light at its nodes
-    channel_t diffuse;  // diffuse light at its nodes
-  } record_t;
-
   // a pixel
   typedef struct packed {
     logic [15:0] specular;  // U0.16
@@ -720,6 +767,30 @@ package shade_pkg;
     logic [15:0] red;  // U0.16
   } coloured_t;
 
+  // a span on its way to its nodes
+  typedef struct packed {
+    logic [15:0] tag;  // given back with every pixel
+    logic flat;  // its normals need no normalizing
+    step_t increment;  // its increment per pixel
+    step_t normal;  // interpolated normal of the first pixel
+  } job_t;
+
+  // records of one kind, one after the other
+  typedef struct packed {
+    logic fresh;  // the first of a span
+    logic shared;  // its first node is the last one before
+    logic more;  // the span goes on behind it
+    logic single;  // it is 1
+    logic [12:0] records;  // their number
+    logic [12:0] count;  // pixels of a record
+    logic [3:0] log2;  // of the arc of a record
+    logic [1:0] degree;  // of its records
+    logic flat;  // its normals need no normalizing
+    logic [15:0] tag;  // of the span
+    step_t step;  // increment of a normal from node to node
+    step_t normal;  // of its first pixel
+  } stretch_t;
+
   // how a span is cut into records
   typedef struct packed {
     logic split;  // main is not 0
@@ -730,6 +801,25 @@ package shade_pkg;
     logic [3:0] log2;  // log2 of their pixels
     logic [12:0] main;  // records before the last one
   } plan_t;
+
+  // a pixel before it is computed: the record's nodes and where on its arc it lies
+  typedef struct packed {
+    logic [15:0] tag;  // of the span
+    logic [3:0] log2;  // of the arc
+    logic [16:0] t;  // U1.16: place on the arc
+    logic last;  // the last pixel of a span
+    logic first;  // a segment starts
+    logic [1:0] degree;  // of the record
+    channel_t specular;  // light of one channel at the nodes of a record
+    channel_t diffuse;  // light of one channel at the nodes of a record
+  } token_t;
+
+  // a pixel on its way out
+  typedef struct packed {
+    logic last;  // the last pixel of the span
+    logic [15:0] tag;  // of its span
+    pixel_t pixel;  // a pixel
+  } drawn_t;
 
   // where a node stands in its record
   typedef struct packed {
@@ -824,6 +914,22 @@ package shade_pkg;
     planner_t planner;  // what the planner goes by
     control_t control;  // the way through the core
   } draw_t;
+
+  // by how much the counters rise in a clock
+  typedef struct packed {
+    logic [2:0] errors;
+    logic [2:0] evaluations;
+    logic [2:0] stalls;
+    logic [2:0] spans;
+    logic [2:0] pixels;
+  } counts_t;
+
+  // a coloured pixel on its way out
+  typedef struct packed {
+    logic last;  // the last pixel of the span
+    logic [15:0] tag;  // of its span
+    coloured_t pixel;  // a coloured pixel
+  } painted_t;
 
   // what can be said of a point: its light and its normal
   typedef struct packed {

@@ -69,6 +69,9 @@ struct Session {
     }
 };
 
+struct Stop {};  // an assertion failed
+bool ours = false;  // the main loop is model_run's
+
 #if AXIL
 // A word [0]: offset, [1]: what is written, or read. 0: done; 2: an error response; 3: no answer for `patience` clocks
 int access(Session& s, bool write, uint32_t* word, uint64_t patience) {
@@ -106,6 +109,14 @@ void rest(DUT&) {}
 
 }  // namespace
 
+// Verilator's runtime calls it behind an assertion that failed, whose line is on standard output by then
+void vl_stop(const char*, int, const char*) {
+    std::fflush(stdout);
+    if (ours) throw Stop{};
+    Verilated::threadContextp()->gotError(true);
+    Verilated::threadContextp()->gotFinish(true);
+}
+
 extern "C" {
 
 struct Job {
@@ -131,8 +142,10 @@ int accesses(Session& s, Job& job, bool write, uint64_t end) {
     return result;
 }
 
-// 0: done; 1: the module took no input and gave no output for `patience` clocks; 2, 3: see access, of word `accesses`
-int model_run(Job* job, void** session) {
+// 0: done; 1: the module took no input and gave no output for `patience` clocks; 2, 3: see access, of word `accesses`;
+// 4: an assertion failed
+int model_run(Job* job, void** session) try {
+    ours = true;
     auto* s = new Session(job->seed, job->waves);
     *session = s;
     Random random{job->seed * 2654435761u + 88172645463325252ULL};
@@ -213,6 +226,8 @@ int model_run(Job* job, void** session) {
     job->clocks = CLOCKED ? s->clocks : clock;
     job->simulated = clock + s->resting;
     return result;
+} catch (const Stop&) {
+    return 4;
 }
 
 const uint64_t* model_out(void* session, int port) { return static_cast<Session*>(session)->out[port].data(); }

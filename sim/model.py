@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
+from polyshade.golden import contract as k
 from polyshade.golden.types import numbers, words
 from polyshade.sim import verilate
 from polyshade.sim.errors import UserError
@@ -27,7 +28,8 @@ WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows 
 
 
 class SimulationError(Exception):
-    """The module stopped, no input was taken and no output given for too long; or an access to a register failed."""
+    """The module stopped, no input was taken and no output given for too long; an access to a register failed; or an
+    assertion in the module did."""
 
 
 @dataclass(frozen=True)
@@ -321,7 +323,7 @@ class Model:
         in_gap: float = 0.0,
         out_stall: float = 0.0,
         seed: int = 1,
-        latency: int = 0,
+        latency: int | None = None,
         pace: int = 1,
         drain: int = 256,
         patience: int = 100_000,
@@ -335,19 +337,21 @@ class Model:
         words) or (words,) of 32 bits; of structures one for every field, ``**{"n_i.x": x, ...}``, ``n_i={"x": x, ...}``
         or, lowest bits first, ``n_i=(x, y, z)`` or an array (rows, fields), or a number for all fields.
         ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer, where the module
-        has a valid input, a ready input. ``latency``: of a module without ``valid_o``. ``pace``: clocks a row of a
-        module with ``phase_i``, which counts 0 to ``pace`` - 1; a row is taken in phase 0. The run ends ``drain``
-        clocks after the last transfer. Where the module has registers on ``s_axil_*``, ``writes``, words by offset,
-        come before the streams, and ``reads``, offsets, after them.
+        has a clock, a ready input. ``latency``: of a module without ``valid_o``, by default the contract's LATENCY_*.
+        ``pace``: clocks a row of a module with ``phase_i``, which counts 0 to ``pace`` - 1; a row is taken in phase 0.
+        The run ends ``drain`` clocks after the last transfer. Where the module has registers on ``s_axil_*``,
+        ``writes``, words by offset, come before the streams, and ``reads``, offsets, after them.
 
         Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing is taken
         or given for ``patience`` clocks, and when a register answers with an error or not at all.
         """
         face = self.interface
-        for option, chance, waits in (("in_gap", in_gap, face.into.valid), ("out_stall", out_stall, face.out.ready)):
+        for option, chance, waits in (("in_gap", in_gap, face.clock), ("out_stall", out_stall, face.out.ready)):
             if not 0 <= chance <= (1 if waits else 0):
                 limit = "0 to 1" if waits else f"0, {self.module} cannot wait there"
                 raise UserError(f"{option}: {chance} is out of range, allowed is {limit}")
+        if latency is None:
+            latency = k.constants().get(f"LATENCY_{self.module.removeprefix('shade_').upper()}", 0)
         rows, arrays = self._inputs(inputs)
         writes, reads = dict(writes or {}), list(reads)
         accesses = self._accesses(writes, reads)
@@ -373,6 +377,8 @@ class Model:
             return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(ctypes.c_uint64)), (count,)).copy()
 
         taken = column(self._library.model_taken(session), self._library.model_taken_rows(session))
+        if stopped == 4:
+            raise SimulationError(f"{self!r}: an assertion failed, standard output names it")
         if stopped > 1:
             access = "write to" if job.accesses < job.writes else "read of"
             told = "error response" if stopped == 2 else f"no answer for {job.patience} clocks"

@@ -99,7 +99,9 @@ class Bench:
     async def start(self) -> None:
         """Start the clock and reset the module, with random bits at its inputs and nothing offered."""
         for port in self.dut:
-            if re.search("^(valid|ready)_i$|^s_axis_.*_tvalid$|^m_axis_.*_tready$", port._name):
+            if port._name == "rst_i":  # from the first edge on, as registers start with random bits
+                port.value = 1
+            elif re.search("^(valid|ready)_i$|^s_axis_.*_tvalid$|^m_axis_.*_tready$", port._name):
                 port.value = 0
             elif re.search("(?<!clk)_i$|^s_axis_.*_tdata$", port._name):
                 scramble(port)
@@ -207,7 +209,7 @@ class Bench:
                 since = 0
             taken.append(offer if take else None)
             row = taken[-1 - latency]
-            if valid:
+            if hasattr(dut, "valid_o"):
                 self.equal(int(dut.valid_o.value), row is not None, f"row {row}: valid_o")
             if row is not None:
                 for column in exits:
@@ -317,6 +319,8 @@ def patterns(port: ValueObjectBase, values: ArrayLike) -> list[int]:
 
 def _bits(name: str, values: ArrayLike, width: int) -> list[int]:
     """Numbers, or rows of words of 32 bits, as so many bits."""
+    if isinstance(values, list) and all(type(value) is int for value in values):
+        return values  # bits of a structure
     values = np.asarray(values)
     if values.ndim > 1:
         return [int.from_bytes(row.astype("<u4").tobytes(), "little") for row in values]

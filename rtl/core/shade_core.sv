@@ -1,16 +1,17 @@
 // shade_core: the shading core: spans of interpolated normals in, shaded pixels out, settings and counters on AXI4-Lite.
 //
-//                    ┌─▶ shade_lane 0 ─▶ (shade_paint) ─▶ m_axis_pixel 0
-//   s_axis_span ─ deal ─▶ shade_lane 1 ─▶ (shade_paint) ─▶ m_axis_pixel 1 ...      good span i goes to lane i mod LANES
-//                            ▲
-//   s_axil ─▶ shade_registers
+//                           ┌─▶ shade_lane 0 ─▶ (shade_paint) ─▶ m_axis_pixel 0
+//   s_axis_span ─▶ shade_door ─▶ shade_lane 1 ─▶ (shade_paint) ─▶ m_axis_pixel 1 ...
+//                                   ▲      └─▶ shade_tally ─┐
+//   s_axil ─▶ shade_registers ◀─────┴───────────────────────┘
 //
 //   s_axis_span   one beat a packet (tlast = 1, all of tkeep): LINE packet, see rtl/README.md
 //   m_axis_pixel  LANES AXI4-Streams side by side, slice i of every port is stream i: tdata {specular, diffuse} U0.16,
 //                 COLOUR = 1: {blue, green, red} or {0, specular, diffuse} by CONTROL.colour; tuser = tag; tlast = span's last
 //   s_axil        AXI4-Lite, see docs/registers.md; settings can be written while no span is inside, and none enters
-//                 while they change. CONTROL.clear deals the next span to lane 0
+//                 while they change. CONTROL.clear, at any time, sets counters and STATUS to 0 and does nothing else
 //
+// A span goes to the lane that has least to draw: see shade_door. A lane gives its spans in order; the tag tells which they are. The door passes one span a clock to all lanes together.
 // A faulty span (0 or more than 4096 pixels, a packet cut short or too long) is dropped: it sets a bit of STATUS, counts in
 // ERRORS and costs a clock a beat; the next span is unharmed. Without faults every span gives its pixels in order.
 // EVALUATOR: EVALUATOR_FDIFF (no multiplier at a pixel) or EVALUATOR_HORNER. FORM: FORM_REFINED or FORM_PAPER (of the
@@ -70,180 +71,74 @@ module shade_core #(
     $error("shade_core: COLOUR must be 0 or 1, DATA_W is not to be set");
   end
 
-  localparam int COUNT_W = shade_pkg::COUNT_W;
   localparam int TAG_W = shade_pkg::TAG_W;
-  localparam int PIXEL_W = shade_pkg::PIXEL_DATA_W;
-  localparam int TURN_W = LANES > 2 ? 2 : 1;
   shade_pkg::draw_t draw;
+  shade_pkg::span_t span;
+  shade_pkg::status_t events;
+  shade_pkg::counts_t counts;
+  logic change, busy, busy_q;
+  logic [LANES-1:0] enter, room, ready, given, lit;
+  logic [LANES-1:0][shade_pkg::NODE_FLAGS_BITS-1:0] flags;
 
-  // ---- the door: what is faulty stays outside ---------------------------------------------------------------------
-  logic [COUNT_W-1:0] count;
-  logic inside_packet_q, change, clear, hold, take, whole, empty, long_span, good;
-  logic door_valid_q, spare_valid_q, leave;
-  logic [shade_pkg::LINE_DATA_W-1:0] door_q, spare_q;  // a good span on its way to its lane, and one behind it
-  logic [LANES-1:0] ready;
-  logic [TURN_W-1:0] turn_q;
-  assign count              = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
-  assign whole              = s_axis_span_tlast && !inside_packet_q && &s_axis_span_tkeep;
-  assign empty              = count == '0;
-  assign long_span          = count > COUNT_W'(shade_pkg::PIXELS_MAX);
-  assign good               = whole && !empty && !long_span;
-  assign hold               = change || clear;
-  assign s_axis_span_tready = !spare_valid_q && !hold;  // a span sees one set of settings all its way
-  assign leave              = ready[turn_q];
-  assign take               = s_axis_span_tvalid && s_axis_span_tready;
+  shade_door #(.LANES(LANES), .PATH_NORMALS(PATH_NORMALS)) u_door (
+    .clk_i, .rst_i, .s_axis_span_tvalid, .s_axis_span_tready, .s_axis_span_tdata, .s_axis_span_tkeep,
+    .s_axis_span_tlast, .draw_i(draw), .hold_i(change), .valid_o(enter), .room_i(room), .ready_i(ready),
+    .given_i(given), .span_o(span), .busy_o(busy), .good_o(counts.spans[0]), .bad_o(counts.errors[0]), .error_o(events.error)
+  );
+  assign counts.spans[2:1]  = 2'b00;
+  assign counts.errors[2:1] = 2'b00;
 
-  // faults of path normals that do not stop a span: see shade_pixel_normals
-  logic normals, metric, threshold;
-  assign normals   = PATH_NORMALS == 1 && draw.control.path == 1'(shade_pkg::PATH_NORMALS);
-  assign metric    = normals && good && (count <= COUNT_W'(shade_pkg::METRIC_M_MIN) ||
-                     count > COUNT_W'(shade_pkg::METRIC_M_MAX + 1)) &&
-                     (draw.control.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V1) ||
-                      draw.control.variant == shade_pkg::VARIANT_W'(shade_pkg::VARIANT_V2));
-  assign threshold = normals && good && (draw.planner.threshold < 0 || draw.planner.threshold > 18'sd65536);
+  // all lanes count together: what is folded takes an input in phase 0
+  logic [2:0] phase_q;
+  always_ff @(posedge clk_i) phase_q <= rst_i || phase_q == 3'(FOLD - 1) ? 3'd0 : phase_q + 3'd1;
 
-  // what a beat is told by is looked at a clock after it was taken
-  logic taken_q, begins_q, whole_q, good_q, few_q, many_q, metric_seen_q, threshold_seen_q;
-  logic spans_q, errors_q, empty_q, long_q, packet_q, metric_q, threshold_q;
-  always_ff @(posedge clk_i) begin
-    if (!door_valid_q || leave) begin
-      door_q        <= spare_valid_q ? spare_q : s_axis_span_tdata;
-      door_valid_q  <= spare_valid_q || (take && good);
-      spare_valid_q <= 1'b0;
-    end else if (!spare_valid_q) begin
-      spare_q       <= s_axis_span_tdata;
-      spare_valid_q <= take && good;
-    end
-    if (door_valid_q && leave) turn_q <= turn_q == TURN_W'(LANES - 1) ? '0 : turn_q + TURN_W'(1);
-    if (take) inside_packet_q <= !s_axis_span_tlast;
-    taken_q          <= take;
-    begins_q         <= !inside_packet_q;
-    whole_q          <= whole;
-    good_q           <= good;
-    few_q            <= empty;
-    many_q           <= long_span;
-    metric_seen_q    <= metric;
-    threshold_seen_q <= threshold;
-    spans_q          <= taken_q && good_q;
-    errors_q         <= taken_q && !good_q && begins_q;
-    packet_q         <= taken_q && !whole_q && begins_q;
-    empty_q          <= taken_q && whole_q && few_q;
-    long_q           <= taken_q && whole_q && many_q;
-    metric_q         <= taken_q && metric_seen_q;
-    threshold_q      <= taken_q && threshold_seen_q;
-    if (clear) turn_q <= '0;
-    if (rst_i) begin
-      door_valid_q    <= 1'b0;
-      spare_valid_q   <= 1'b0;
-      turn_q          <= '0;
-      inside_packet_q <= 1'b0;
-      taken_q         <= 1'b0;
-      {spans_q, errors_q, packet_q, empty_q, long_q, metric_q, threshold_q} <= '0;
-    end
-  end
-
-  // ---- lanes -------------------------------------------------------------------------------------------------
-  logic [LANES-1:0] lit, out_q, stall_q, occupied;
-  logic [LANES*shade_pkg::LANE_FLAGS_W-1:0] flags;
   for (genvar i = 0; i < LANES; i++) begin : g_lane
-    logic enter, valid, last, taken;
-    logic [PIXEL_W-1:0] pixel;
-    logic [TAG_W-1:0] tag;
-    assign enter = door_valid_q && turn_q == TURN_W'(i);
-    shade_pkg::draw_t draw_q;  // a copy of the settings, near where they are needed; no span enters sooner
-    always_ff @(posedge clk_i) draw_q <= draw;
+    // with several lanes a copy of the settings each, near where they are needed; no span enters sooner
+    shade_pkg::draw_t own;
+    if (LANES == 1) begin : g_same
+      assign own = draw;
+    end else begin : g_copy
+      always_ff @(posedge clk_i) own <= draw;
+    end
+
+    logic valid, taken;
+    shade_pkg::drawn_t drawn;
     shade_lane #(
       .EVALUATOR(EVALUATOR), .FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS),
       .FOLD(FOLD)
     ) u_lane (
-      .clk_i, .rst_i, .draw_i(draw_q), .s_axis_span_tvalid(enter), .s_axis_span_tready(ready[i]),
-      .s_axis_span_tdata(door_q),
-      .m_axis_pixel_tvalid(valid), .m_axis_pixel_tready(taken), .m_axis_pixel_tdata(pixel),
-      .m_axis_pixel_tuser(tag), .m_axis_pixel_tlast(last), .lit_o(lit[i]),
-      .flags_o(flags[i*shade_pkg::LANE_FLAGS_W+:shade_pkg::LANE_FLAGS_W])
+      .clk_i, .rst_i, .phase_i(phase_q), .draw_i(own), .valid_i(enter[i]), .ready_o(ready[i]), .room_o(room[i]),
+      .span_i(span), .valid_o(valid), .ready_i(taken), .drawn_o(drawn), .lit_o(lit[i]), .flags_o(flags[i])
     );
     if (COLOUR == 1) begin : g_paint
+      shade_pkg::painted_t painted;
       shade_paint u_paint (
-        .clk_i, .rst_i, .draw_i(draw_q), .s_axis_pixel_tvalid(valid), .s_axis_pixel_tready(taken),
-        .s_axis_pixel_tdata(pixel), .s_axis_pixel_tuser(tag), .s_axis_pixel_tlast(last),
-        .m_axis_pixel_tvalid(m_axis_pixel_tvalid[i]), .m_axis_pixel_tready(m_axis_pixel_tready[i]),
-        .m_axis_pixel_tdata(m_axis_pixel_tdata[i*DATA_W+:DATA_W]),
-        .m_axis_pixel_tuser(m_axis_pixel_tuser[i*TAG_W+:TAG_W]), .m_axis_pixel_tlast(m_axis_pixel_tlast[i])
+        .clk_i, .rst_i, .draw_i(own), .valid_i(valid), .ready_o(taken), .drawn_i(drawn),
+        .valid_o(m_axis_pixel_tvalid[i]), .ready_i(m_axis_pixel_tready[i]), .painted_o(painted)
       );
+      assign m_axis_pixel_tdata[i*DATA_W+:DATA_W] = painted.pixel;
+      assign m_axis_pixel_tuser[i*TAG_W+:TAG_W]   = painted.tag;
+      assign m_axis_pixel_tlast[i]                = painted.last;
     end else begin : g_plain
-      assign m_axis_pixel_tvalid[i]                = valid;
-      assign m_axis_pixel_tdata[i*DATA_W+:DATA_W]  = pixel;
-      assign m_axis_pixel_tuser[i*TAG_W+:TAG_W]    = tag;
-      assign m_axis_pixel_tlast[i]                 = last;
-      assign taken                                 = m_axis_pixel_tready[i];
-    end
-
-    // spans inside, counted at the core's own ports
-    logic [15:0] inside_q;
-    logic in, out;
-    assign occupied[i] = inside_q != '0;
-    assign in  = enter && ready[i];
-    assign out = m_axis_pixel_tvalid[i] && m_axis_pixel_tready[i];
-    always_ff @(posedge clk_i) begin
-      inside_q   <= inside_q + 16'(in) - 16'(out && m_axis_pixel_tlast[i]);
-      out_q[i]   <= out;
-      stall_q[i] <= m_axis_pixel_tvalid[i] && !m_axis_pixel_tready[i];
-      if (rst_i) begin
-        inside_q   <= '0;
-        out_q[i]   <= 1'b0;
-        stall_q[i] <= 1'b0;
-      end
+      assign taken                                = m_axis_pixel_tready[i];
+      assign m_axis_pixel_tvalid[i]               = valid;
+      assign m_axis_pixel_tdata[i*DATA_W+:DATA_W] = drawn.pixel;
+      assign m_axis_pixel_tuser[i*TAG_W+:TAG_W]   = drawn.tag;
+      assign m_axis_pixel_tlast[i]                = drawn.last;
     end
   end
 
-  // ---- settings, status and counters ---------------------------------------------------------------------------
-  logic [shade_pkg::LANE_FLAGS_W-1:0] told_q;
-  logic [2:0] pixels_q, stalls_q, evaluations_q;
-  logic [shade_pkg::LANE_FLAGS_W-1:0] told;
-  logic [2:0] pixels, stalls, evaluations;
-  always_comb begin
-    told        = '0;
-    pixels      = '0;
-    stalls      = '0;
-    evaluations = '0;
-    for (int i = 0; i < LANES; i++) begin
-      if (lit[i]) told = told | flags[i*shade_pkg::LANE_FLAGS_W+:shade_pkg::LANE_FLAGS_W];
-      pixels      = pixels + 3'(out_q[i]);
-      stalls      = stalls + 3'(stall_q[i]);
-      evaluations = evaluations + 3'(lit[i]);
-    end
-  end
-  always_ff @(posedge clk_i) begin
-    told_q        <= told;
-    pixels_q      <= pixels;
-    stalls_q      <= stalls;
-    evaluations_q <= evaluations;
-    if (rst_i) {told_q, pixels_q, stalls_q, evaluations_q} <= '0;
-  end
-
-  logic busy_q;  // a span is at the door or inside
-  always_ff @(posedge clk_i) busy_q <= !rst_i && (|occupied || door_valid_q || spare_valid_q || (take && good));
-
-  shade_pkg::status_t events;
-  assign events.error.empty     = empty_q;
-  assign events.error.too_long     = long_q;
-  assign events.error.packet    = packet_q;
-  assign events.error.metric    = metric_q;
-  assign events.error.threshold = threshold_q;
-  assign events.node.light.model     = told_q[shade_pkg::LIGHT_MODEL];
-  assign events.node.light.range     = told_q[shade_pkg::LIGHT_RANGE];
-  assign events.node.light.zero      = told_q[shade_pkg::LIGHT_ZERO];
-  assign events.node.light.saturated = told_q[shade_pkg::LIGHT_SATURATED];
-  assign events.node.normal_zero     = told_q[shade_pkg::LANE_NORMAL_ZERO];
-  assign events.node.normal_short    = told_q[shade_pkg::LANE_NORMAL_SHORT];
+  shade_tally #(.LANES(LANES)) u_tally (
+    .clk_i, .rst_i, .valid_i(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready), .lit_i(lit), .flags_i(flags),
+    .given_o(given), .pixels_o(counts.pixels), .stalls_o(counts.stalls), .evaluations_o(counts.evaluations),
+    .flags_o(events.node)
+  );
+  always_ff @(posedge clk_i) busy_q <= !rst_i && busy;  // a span is at the door or inside
 
   shade_registers u_registers (
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(busy_q),
-    .events_i(events),
-    .pixels_i(pixels_q), .spans_i({2'b00, spans_q}), .stalls_i(stalls_q), .evaluations_i(evaluations_q),
-    .errors_i({2'b00, errors_q})
+    .draw_o(draw), .change_o(change), .clear_o(), .busy_i(busy_q), .events_i(events), .counts_i(counts)
   );
 endmodule

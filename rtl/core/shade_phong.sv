@@ -6,7 +6,6 @@
 //   m_axis_pixel   tdata = {specular, diffuse}, U0.16; tuser = tag; tlast = last pixel of the span
 //   draw_i         settings of the draw call, material and light, see docs/registers.md; must not change while a span is
 //                  inside
-//   error_o, error_count_o   ERROR_EMPTY, _LONG: a span that is dropped, at the cost of a clock, and counted
 //
 // What shade_lane is measured against: the same packets, and the pixels that it comes close to. FORM, REFLECT, DIVIDE: see
 // shade_light. The pipeline never stalls: a pixel starts with a credit for its place in the FIFO; no combinational path leads
@@ -28,9 +27,7 @@ module shade_phong #(
   input  logic                               m_axis_pixel_tready,
   output logic [shade_pkg::PIXEL_DATA_W-1:0] m_axis_pixel_tdata,
   output logic [       shade_pkg::TAG_W-1:0] m_axis_pixel_tuser,
-  output logic                               m_axis_pixel_tlast,
-  output logic [                        1:0] error_o,
-  output logic [                       15:0] error_count_o
+  output logic                               m_axis_pixel_tlast
 );
   localparam int W = shade_pkg::INTENSITY_W;
   localparam int STEP_W = shade_pkg::STEP_W;
@@ -41,17 +38,11 @@ module shade_phong #(
 
   // ---- spans ---------------------------------------------------------------------------------------------------
   logic [COUNT_W-1:0] count;
-  logic [1:0] error;
   logic load, issue, first, last, credit;
   assign count = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
-  always_comb begin
-    error = '0;
-    error[shade_pkg::ERROR_EMPTY] = count == '0;
-    error[shade_pkg::ERROR_LONG] = count > COUNT_W'(shade_pkg::PIXELS_MAX);
-  end
-  shade_walk #(.ERROR_W(2), .CREDIT_LOG2(FIFO_LOG2)) u_walk (
-    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(count), .error_i(error),
-    .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first), .last_o(last), .error_o, .error_count_o
+  shade_walk #(.CREDIT_LOG2(FIFO_LOG2)) u_walk (
+    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(count),
+    .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first), .last_o(last)
   );
 
   logic [LINE_W-1:0] line_q;

@@ -8,7 +8,7 @@
 //   change_o      high in the last clock of a write: settings may be others in the next one; no span may come in between
 //   clear_o       high for one clock: CONTROL.clear was written
 //   events_i      STATUS bits to set; they stay until they are cleared
-//   pixels_i, ... by how much the counters rise in this clock; CLOCKS rises while busy_i. Counters wrap around.
+//   counts_i      by how much the counters rise in this clock; CLOCKS rises while busy_i. Counters wrap around.
 //                 What comes in the clock of clear_o counts from 0.
 //
 // A read is answered 5 clocks after its address was taken, a write 5 clocks after the later of its address and its data;
@@ -41,11 +41,7 @@ module shade_registers (
   output logic               clear_o,
   input  logic               busy_i,
   input  shade_pkg::status_t events_i,
-  input  logic        [ 2:0] pixels_i,
-  input  logic        [ 2:0] spans_i,
-  input  logic        [ 2:0] stalls_i,
-  input  logic        [ 2:0] evaluations_i,
-  input  logic        [ 2:0] errors_i
+  input  shade_pkg::counts_t counts_i
 );
   localparam logic [1:0] OKAY = 2'b00;
   localparam logic [1:0] SLVERR = 2'b10;
@@ -55,12 +51,12 @@ module shade_registers (
   logic [31:0] pixels_q, spans_q, clocks_q, stalls_q, evaluations_q, errors_q;
   shade_pkg::status_t status_q;
   always_ff @(posedge clk_i) begin
-    pixels_q      <= (clear_o ? 32'd0 : pixels_q) + 32'(pixels_i);
-    spans_q       <= (clear_o ? 32'd0 : spans_q) + 32'(spans_i);
+    pixels_q      <= (clear_o ? 32'd0 : pixels_q) + 32'(counts_i.pixels);
+    spans_q       <= (clear_o ? 32'd0 : spans_q) + 32'(counts_i.spans);
     clocks_q      <= (clear_o ? 32'd0 : clocks_q) + 32'(busy_i);
-    stalls_q      <= (clear_o ? 32'd0 : stalls_q) + 32'(stalls_i);
-    evaluations_q <= (clear_o ? 32'd0 : evaluations_q) + 32'(evaluations_i);
-    errors_q      <= (clear_o ? 32'd0 : errors_q) + 32'(errors_i);
+    stalls_q      <= (clear_o ? 32'd0 : stalls_q) + 32'(counts_i.stalls);
+    evaluations_q <= (clear_o ? 32'd0 : evaluations_q) + 32'(counts_i.evaluations);
+    errors_q      <= (clear_o ? 32'd0 : errors_q) + 32'(counts_i.errors);
     status_q      <= (clear_o ? '0 : status_q) | events_i;
     if (rst_i) begin
       pixels_q      <= 32'd0;
@@ -156,6 +152,13 @@ module shade_registers (
       clear_o <= 1'b0;
     end
   end
+
+  shade_stable #(.WIDTH(2)) u_write (
+    .clk_i, .rst_i, .valid_i(s_axil_bvalid), .ready_i(s_axil_bready), .data_i(s_axil_bresp)
+  );
+  shade_stable #(.WIDTH(34)) u_read (
+    .clk_i, .rst_i, .valid_i(s_axil_rvalid), .ready_i(s_axil_rready), .data_i({s_axil_rresp, s_axil_rdata})
+  );
 
   logic unused_bits;
   assign unused_bits = &{1'b0, s_axil_awaddr[1:0], s_axil_araddr[1:0], s_axil_awprot, s_axil_arprot};

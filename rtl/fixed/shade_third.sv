@@ -14,10 +14,7 @@ module shade_third #(
   parameter int FORM  = shade_pkg::FORM_REFINED
 ) (
   input  logic                    clk_i,
-  input  logic                    rst_i,
-  input  logic                    valid_i,
   input  logic signed [WIDTH-1:0] x_i,
-  output logic                    valid_o,
   output logic signed [WIDTH-2:0] y_o
 );
   if (WIDTH < 4 || WIDTH > 28) begin : g_check
@@ -61,6 +58,4 @@ module shade_third #(
   logic signed [WIDTH-2:0] rounded;
   shade_round #(.WIDTH(SUM_W), .DROP(DROP), .OUT_W(WIDTH - 1)) u_round (.x_i(sum_q4), .y_o(rounded));
   always_ff @(posedge clk_i) y_o <= rounded;
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_THIRD)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

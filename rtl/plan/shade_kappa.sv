@@ -2,7 +2,7 @@
 //
 //   kappa = n |g|^2 4^k / 2       1 - c = |2^k g|^2 / 2 between unit normals
 //
-//   gx_i, gy_i, gz_i  S2.29       increment per pixel
+//   g_i               S2.29       increment per pixel
 //   log2_i            k           taken 2 clocks after g: shade_planner needs as long to find it
 //   mantissa_i        U1.16       n = mantissa 2^exponent, mantissa in [1, 2); constant while arcs are under way
 //   exponent_i        0 .. 12
@@ -13,25 +13,21 @@
 //   kappa = 2 E n 2^-r  r = 9 + 2 s - exponent - 2 k, cut; r < 0: does not fit
 //
 // Within 2^-12 of the exact value, relative, and 1 ulp.
-// FOLD = 1: four 18 x 18 multipliers, one arc a clock, latency LATENCY_KAPPA = 14 clocks; ready_o is 1.
-// FOLD = 6: one multiplier, the same bits; ready_o is 1 in every sixth clock, latency LATENCY_KAPPA_FOLDED = 20 clocks.
+// FOLD = 1: four 18 x 18 multipliers, one arc a clock, latency LATENCY_KAPPA = 14 clocks.
+// FOLD = 6: one multiplier, the same bits; an arc is taken in phase 0 of 6, latency LATENCY_KAPPA_FOLDED = 20 clocks.
 // Example: g = (1/128, 0, 0), k = 5, n = 32 -> 32 (1/4)^2 / 2 = 1.
 // Source: P1 chooses the degree by hand, region by region; kappa alone decides the error of interpolating cos^n.
 module shade_kappa #(
   parameter int FOLD = 1
 ) (
-  input  logic                                       clk_i,
-  input  logic                                       rst_i,
-  input  logic                                       valid_i,
-  output logic                                       ready_o,
-  input  logic signed [       shade_pkg::STEP_W-1:0] gx_i,
-  input  logic signed [       shade_pkg::STEP_W-1:0] gy_i,
-  input  logic signed [       shade_pkg::STEP_W-1:0] gz_i,
-  input  logic        [       shade_pkg::LOG2_W-1:0] log2_i,
-  input  logic        [    shade_pkg::SHARPNESS_F:0] mantissa_i,
-  input  logic        [shade_pkg::SHARPNESS_EXP_W-1:0] exponent_i,
-  output logic                                       valid_o,
-  output logic        [      shade_pkg::KAPPA_W-1:0] kappa_o
+  input  logic                                   clk_i,
+  input  logic                                   rst_i,
+  input  logic [                            2:0] phase_i,
+  input  shade_pkg::step_t                       g_i,
+  input  logic [          shade_pkg::LOG2_W-1:0] log2_i,
+  input  logic [       shade_pkg::SHARPNESS_F:0] mantissa_i,
+  input  logic [shade_pkg::SHARPNESS_EXP_W-1:0] exponent_i,
+  output logic [         shade_pkg::KAPPA_W-1:0] kappa_o
 );
   if (FOLD != 1 && FOLD != 6) begin : g_check
     $error("shade_kappa: FOLD must be 1 or 6");
@@ -45,24 +41,31 @@ module shade_kappa #(
   // ---- s, in steps of 8, 2 and 1: the first bit that differs from its component's sign goes to the front -----------
   localparam int W2 = D_W + 7;  // of g: what the next steps can still bring to the front
   localparam int W3 = D_W + 1;
+  logic [2:0][W-1:0] g, g_q1, changes;
   logic [W-1:0] differs_q1;
   logic [7:0] differs_q2;
+  logic [3:0][7:0] bytes;
+  logic [3:0][1:0] pairs;
   logic [1:0] eights, eights_q2, eights_q3, twos, twos_q3;
   logic front_q3;
   logic [4:0] s_q4;
+  assign g     = g_i;
+  assign bytes = differs_q1;
+  assign pairs = differs_q2;
+  for (genvar c = 0; c < 3; c++) begin : g_change
+    assign changes[c] = g[c] ^ (g[c] << 1);
+  end
   always_comb begin
-    if (|differs_q1[W-1-:8]) eights = 2'd0;
-    else if (|differs_q1[W-9-:8]) eights = 2'd1;
-    else if (|differs_q1[W-17-:8]) eights = 2'd2;
-    else eights = 2'd3;
-
-    if (|differs_q2[7-:2]) twos = 2'd0;
-    else if (|differs_q2[5-:2]) twos = 2'd1;
-    else if (|differs_q2[3-:2]) twos = 2'd2;
-    else twos = 2'd3;
+    eights = 2'd3;
+    twos   = 2'd3;
+    for (int i = 2; i >= 0; i--) begin
+      if (bytes[3-i] != '0) eights = 2'(i);
+      if (pairs[3-i] != '0) twos = 2'(i);
+    end
   end
   always_ff @(posedge clk_i) begin
-    differs_q1 <= {gx_i[W-1:1] ^ gx_i[W-2:0] | gy_i[W-1:1] ^ gy_i[W-2:0] | gz_i[W-1:1] ^ gz_i[W-2:0], 1'b0};
+    g_q1       <= g_i;
+    differs_q1 <= (changes[0] | changes[1] | changes[2]) & ~W'(1);
     differs_q2 <= 8'((differs_q1 << {eights, 3'b000}) >> (W - 8));
     front_q3   <= differs_q2[{~twos, 1'b1}];
     eights_q2  <= eights;
@@ -72,22 +75,20 @@ module shade_kappa #(
   end
 
   localparam int E_W = 2 * D_W;  // at most 3 * 2^34
-  logic [3*W-1:0] g_q1;
-  logic [3*D_W-1:0] d;
-  always_ff @(posedge clk_i) g_q1 <= {gz_i, gy_i, gx_i};
+  logic [2:0][D_W-1:0] d;
   for (genvar c = 0; c < 3; c++) begin : g_component
     logic [W-1:0] eighth;
     logic [W2-1:0] g_q2, half;
     logic [W3-1:0] g_q3;
     logic signed [D_W-1:0] d_q4;
-    assign eighth = g_q1[c*W+:W] << {eights, 3'b000};
+    assign eighth = g_q1[c] << {eights, 3'b000};
     assign half   = g_q2 << {twos, 1'b0};
     always_ff @(posedge clk_i) begin
-      g_q2 <= eighth[W-1-:W2];
-      g_q3 <= half[W2-1-:W3];
-      d_q4 <= front_q3 ? g_q3[W3-1-:D_W] : g_q3[D_W-1:0];
+      g_q2 <= W2'(eighth >> (W - W2));
+      g_q3 <= W3'(half >> (W2 - W3));
+      d_q4 <= D_W'(front_q3 ? g_q3 >> 1 : g_q3);
     end
-    assign d[c*D_W+:D_W] = d_q4;
+    assign d[c] = d_q4;
     logic unused_bits;
     assign unused_bits = &{1'b0, eighth, half};
   end
@@ -97,46 +98,38 @@ module shade_kappa #(
   localparam int M_W = shade_pkg::SHARPNESS_F + 2;
   localparam int P_W = KEPT_W + M_W;  // of twice the product
   logic [E_W-1:0] e, product;
+  logic [KEPT_W:0] kept;  // unsigned
+  assign kept = (KEPT_W + 1)'(e >> (E_W - KEPT_W));
   if (FOLD == 1) begin : g_parallel
-    logic [3*E_W-1:0] squares_q6;
-    logic [E_W-1:0] two_q7, third_q7, e_q8;
-    assign ready_o = 1'b1;
-    for (genvar c = 0; c < 3; c++) begin : g_square
-      shade_mul #(.A_W(D_W), .B_W(D_W)) u_square (
-        .clk_i, .a_i(d[c*D_W+:D_W]), .b_i(d[c*D_W+:D_W]), .p_o(squares_q6[c*E_W+:E_W])
-      );
-    end
+    logic [E_W-1:0] xx_q6, yy_q6, zz_q6, two_q7, third_q7, e_q8;
+    shade_mul #(.A_W(D_W), .B_W(D_W)) u_xx (.clk_i, .a_i(d[0]), .b_i(d[0]), .p_o(xx_q6));
+    shade_mul #(.A_W(D_W), .B_W(D_W)) u_yy (.clk_i, .a_i(d[1]), .b_i(d[1]), .p_o(yy_q6));
+    shade_mul #(.A_W(D_W), .B_W(D_W)) u_zz (.clk_i, .a_i(d[2]), .b_i(d[2]), .p_o(zz_q6));
     always_ff @(posedge clk_i) begin
-      two_q7   <= squares_q6[0+:E_W] + squares_q6[E_W+:E_W];
-      third_q7 <= squares_q6[2*E_W+:E_W];
+      two_q7   <= xx_q6 + yy_q6;
+      third_q7 <= zz_q6;
       e_q8     <= two_q7 + third_q7;
     end
     assign e = e_q8;
-    shade_mul #(.A_W(KEPT_W + 1), .B_W(M_W)) u_product (
-      .clk_i, .a_i({1'b0, e[E_W-1-:KEPT_W]}), .b_i({1'b0, mantissa_i}), .p_o(product)
-    );
+    shade_mul #(.A_W(KEPT_W + 1), .B_W(M_W)) u_product (.clk_i, .a_i(kept), .b_i({1'b0, mantissa_i}), .p_o(product));
+    logic unused_phase;
+    assign unused_phase = &{1'b0, phase_i};
   end else begin : g_folded
     // factors of clock c stand at the multiplier in c + 1, their product comes in c + 3; d is there in clock 4
-    logic [2:0] phase_q;
-    logic signed [D_W-1:0] y_q, z_q, a_q, b_q;
+    logic [D_W-1:0] y_q, z_q, a_q, b_q;
     logic [E_W-1:0] e_q;
-    assign ready_o = phase_q == 3'd0;
     always_ff @(posedge clk_i) begin
-      phase_q <= phase_q == 3'd5 ? 3'd0 : phase_q + 3'd1;
-      if (rst_i) phase_q <= 3'd0;
-    end
-    always_ff @(posedge clk_i) begin
-      case (phase_q)
+      case (phase_i)
         3'd4: begin
-          {y_q, z_q} <= {d[D_W+:D_W], d[2*D_W+:D_W]};
-          {a_q, b_q} <= {d[0+:D_W], d[0+:D_W]};
+          {y_q, z_q} <= {d[1], d[2]};
+          {a_q, b_q} <= {d[0], d[0]};
         end
         3'd5:    {a_q, b_q} <= {y_q, y_q};
         3'd0:    {a_q, b_q} <= {z_q, z_q};
-        default: {a_q, b_q} <= {1'b0, e_q[E_W-1-:KEPT_W], 1'b0, mantissa_i};  // E stays until the next one begins
+        default: {a_q, b_q} <= {kept, 1'b0, mantissa_i};  // E stays until the next one begins
       endcase
-      if (phase_q == 3'd1) e_q <= product;
-      else if (phase_q == 3'd2 || phase_q == 3'd3) e_q <= e_q + product;
+      if (phase_i == 3'd1) e_q <= product;
+      else if (phase_i == 3'd2 || phase_i == 3'd3) e_q <= e_q + product;
     end
     assign e = e_q;
     shade_mul #(.A_W(D_W), .B_W(D_W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
@@ -165,7 +158,6 @@ module shade_kappa #(
   shade_ring #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATENCY - shade_pkg::LATENCY_KAPPA)) u_r (.clk_i, .rst_i, .d_i(r_q5), .q_o(r_q10));
   shade_delay #(.WIDTH(1), .DEPTH(2)) u_over (.clk_i, .d_i(over_q11), .q_o(over_q13));
 
-  shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i(valid_i && ready_o), .valid_o);
   logic unused_product;
   assign unused_product = &{1'b0, product, e};
 endmodule

@@ -4,46 +4,33 @@
 //   kappa(k) = kappa 4^(k - whole)  of 2^k pixels
 //   k = largest with kappa(k) <= t3;  degree 1 where kappa(k) <= t1, 2 where <= t2, else 3
 //
-//   gx_i, gy_i, gz_i S2.29   increment of the normal per pixel
-//   count_i                  pixels, 1 .. 4096; any other count gives some plan
-//   flat_i                   kappa counts as 0: one record of degree 1
-//   t1_i, t2_i, t3_i U11.20; mantissa_i, exponent_i: see shade_kappa; fixed_degree_i  0: adaptive; 1, 2, 3: one record of
-//                            that degree, as in the paper. These six are constant while spans are under way.
-//   main_o                   records before the last, of 2^log2_o pixels and degree_o each
-//   last_count_o             pixels of the last record; it lies on the arc of 2^last_log2_o, with last_degree_o
+//   increment_i      S2.29: increment of the normal per pixel
+//   count_i          pixels, 1 .. 4096; any other count gives some plan
+//   flat_i           kappa counts as 0: one record of degree 1
+//   planner_i        t1, t2, t3, sharpness: see docs/registers.md; fixed_degree_i  0: adaptive; 1, 2, 3: one record of
+//                    that degree, as in the paper. Both are constant while spans are under way.
+//   plan_o           main records of 2^log2 pixels and degree, and a last one of last_count pixels, which lies on the arc of
+//                    2^last_log2, with last_degree
 //
 // Where kappa(2) > t3, all records are direct (degree 0, each pixel lit), of 4 pixels. The last record is direct if it has
 // no more pixels than its polynomial has nodes; in the paper's form, up to 4. The others share nodes with their neighbours.
 // The halvings of kappa until it is at most t3 are found by steps of 8, 4, 2, 1. Multipliers: those of shade_kappa.
-// FOLD = 1: one span a clock, latency LATENCY_PLANNER = 28 clocks; ready_o is 1. FOLD = 6: one span in six clocks, when
-// ready_o is 1, latency LATENCY_PLANNER_FOLDED = 34 clocks.
+// FOLD = 1: one span a clock, latency LATENCY_PLANNER = 28 clocks. FOLD = 6: one span in six clocks, taken in phase 0 of 6,
+// latency LATENCY_PLANNER_FOLDED = 34 clocks.
 // Example: 33 pixels, g = (1/128, 0, 0), n = 128: kappa = 4 -> 1 record of 16 pixels, one of 17, both of degree 3.
 // Source: P1, section V (degrees by region), by a measure instead of by hand.
 module shade_planner #(
   parameter int FOLD = 1
 ) (
-  input  logic                                         clk_i,
-  input  logic                                         rst_i,
-  input  logic                                         valid_i,
-  output logic                                         ready_o,
-  input  logic signed [         shade_pkg::STEP_W-1:0] gx_i,
-  input  logic signed [         shade_pkg::STEP_W-1:0] gy_i,
-  input  logic signed [         shade_pkg::STEP_W-1:0] gz_i,
-  input  logic        [        shade_pkg::COUNT_W-1:0] count_i,
-  input  logic                                         flat_i,
-  input  logic        [        shade_pkg::KAPPA_W-1:0] t1_i,
-  input  logic        [        shade_pkg::KAPPA_W-1:0] t2_i,
-  input  logic        [        shade_pkg::KAPPA_W-1:0] t3_i,
-  input  logic        [      shade_pkg::SHARPNESS_F:0] mantissa_i,
-  input  logic        [shade_pkg::SHARPNESS_EXP_W-1:0] exponent_i,
-  input  logic        [       shade_pkg::DEGREE_W-1:0] fixed_degree_i,
-  output logic                                         valid_o,
-  output logic        [        shade_pkg::COUNT_W-1:0] main_o,
-  output logic        [         shade_pkg::LOG2_W-1:0] log2_o,
-  output logic        [       shade_pkg::DEGREE_W-1:0] degree_o,
-  output logic        [        shade_pkg::COUNT_W-1:0] last_count_o,
-  output logic        [         shade_pkg::LOG2_W-1:0] last_log2_o,
-  output logic        [       shade_pkg::DEGREE_W-1:0] last_degree_o
+  input  logic                            clk_i,
+  input  logic                            rst_i,
+  input  logic [                     2:0] phase_i,
+  input  shade_pkg::step_t                increment_i,
+  input  logic [  shade_pkg::COUNT_W-1:0] count_i,
+  input  logic                            flat_i,
+  input  shade_pkg::planner_t             planner_i,
+  input  logic [ shade_pkg::DEGREE_W-1:0] fixed_degree_i,
+  output shade_pkg::plan_t                plan_o
 );
   if (FOLD != 1 && FOLD != 6) begin : g_check
     $error("shade_planner: FOLD must be 1 or 6");
@@ -73,8 +60,8 @@ module shade_planner #(
   end
   localparam int WAIT = FOLD == 1 ? 0 : shade_pkg::LATENCY_KAPPA_FOLDED - shade_pkg::LATENCY_KAPPA;
   shade_kappa #(.FOLD(FOLD)) u_kappa (
-    .clk_i, .rst_i, .valid_i(1'b0), .ready_o, .gx_i, .gy_i, .gz_i, .log2_i(whole_q2), .mantissa_i, .exponent_i,
-    .valid_o(), .kappa_o(kappa_q14)
+    .clk_i, .rst_i, .phase_i, .g_i(increment_i), .log2_i(whole_q2), .mantissa_i(planner_i.sharpness),
+    .exponent_i(planner_i.sharpness_exp), .kappa_o(kappa_q14)
   );
   shade_ring #(.WIDTH(COUNT_W), .DEPTH(20 + WAIT)) u_count (.clk_i, .rst_i, .d_i(count_i), .q_o(count_q20));
   shade_delay #(.WIDTH(COUNT_W), .DEPTH(2)) u_count2 (.clk_i, .d_i(count_q20), .q_o(count_q22));
@@ -85,20 +72,20 @@ module shade_planner #(
   // ---- halvings until kappa <= t3: 8, 4, 2, 1 more, where one less than these is not enough --------------------------
   logic [KAPPA_W-1:0] kappa_q19, kappa_q24;
   logic [3:0] halvings_q19;
-  logic [5*KAPPA_W-1:0] ladder;
-  assign ladder[0+:KAPPA_W] = kappa_q15;
-  assign kappa_q19          = ladder[4*KAPPA_W+:KAPPA_W];
+  logic [4:0][KAPPA_W-1:0] ladder;
+  assign ladder[0] = kappa_q15;
+  assign kappa_q19 = ladder[4];
   for (genvar i = 0; i < 4; i++) begin : g_halve
     localparam int TIMES = 8 >> i;
     logic [KAPPA_W-1:0] kappa, kappa_q;
     logic over, over_q;
-    assign kappa = ladder[i*KAPPA_W+:KAPPA_W];
-    assign over  = kappa >> 2 * (TIMES - 1) > t3_i;
+    assign kappa = ladder[i];
+    assign over  = kappa >> 2 * (TIMES - 1) > planner_i.t3;
     always_ff @(posedge clk_i) begin
       kappa_q <= over ? kappa >> 2 * TIMES : kappa;
       over_q  <= over;
     end
-    assign ladder[(i+1)*KAPPA_W+:KAPPA_W] = kappa_q;
+    assign ladder[i+1] = kappa_q;
     shade_delay #(.WIDTH(1), .DEPTH(3 - i)) u_over (.clk_i, .d_i(over_q), .q_o(halvings_q19[3-i]));
   end
 
@@ -110,8 +97,8 @@ module shade_planner #(
   always_ff @(posedge clk_i) begin
     direct_q20    <= halvings_q19 > room;
     log2_q20      <= whole_q19 - halvings_q19;
-    linear_q20    <= kappa_q19 <= t1_i;
-    quadratic_q20 <= kappa_q19 <= t2_i;
+    linear_q20    <= kappa_q19 <= planner_i.t1;
+    quadratic_q20 <= kappa_q19 <= planner_i.t2;
 
     direct_q21 <= direct_q20;
     log2_q21   <= direct_q20 ? LOG2_MIN : log2_q20;
@@ -147,6 +134,7 @@ module shade_planner #(
   logic [1:0] shorter_q25;
   logic [KAPPA_W-1:0] kappa_q25, kappa_q26;
   logic linear_q27, quadratic_q27;
+  logic [DEGREE_W-1:0] last_degree_q28;
   logic [2:0] few_q24, few_q27;  // at most 4, 3, 2 pixels
   shade_delay #(.WIDTH(KAPPA_W), .DEPTH(5)) u_ladder (.clk_i, .d_i(kappa_q19), .q_o(kappa_q24));
   shade_delay #(.WIDTH(1), .DEPTH(5)) u_direct (.clk_i, .d_i(direct_q22), .q_o(direct_q27));
@@ -157,22 +145,27 @@ module shade_planner #(
     shorter_q25   <= shorter_q24[1:0];
     kappa_q25     <= kappa_q24 >> {shorter_q24[3:2], 3'b000};
     kappa_q26     <= kappa_q25 >> {shorter_q25, 1'b0};
-    linear_q27    <= kappa_q26 <= t1_i;
-    quadratic_q27 <= kappa_q26 <= t2_i;
+    linear_q27    <= kappa_q26 <= planner_i.t1;
+    quadratic_q27 <= kappa_q26 <= planner_i.t2;
 
-    if (fixed_degree_i != '0 && !flat_q27) last_degree_o <= few_q27[2] ? '0 : fixed_degree_i;
-    else if (direct_q27) last_degree_o <= '0;
-    else if (linear_q27) last_degree_o <= few_q27[0] ? '0 : DEGREE_W'(shade_pkg::DEGREE_LINEAR);
-    else if (quadratic_q27) last_degree_o <= few_q27[1] ? '0 : DEGREE_W'(shade_pkg::DEGREE_QUADRATIC);
-    else last_degree_o <= few_q27[2] ? '0 : DEGREE_W'(shade_pkg::DEGREE_CUBIC);
+    if (fixed_degree_i != '0 && !flat_q27) last_degree_q28 <= few_q27[2] ? '0 : fixed_degree_i;
+    else if (direct_q27) last_degree_q28 <= '0;
+    else if (linear_q27) last_degree_q28 <= few_q27[0] ? '0 : DEGREE_W'(shade_pkg::DEGREE_LINEAR);
+    else if (quadratic_q27) last_degree_q28 <= few_q27[1] ? '0 : DEGREE_W'(shade_pkg::DEGREE_QUADRATIC);
+    else last_degree_q28 <= few_q27[2] ? '0 : DEGREE_W'(shade_pkg::DEGREE_CUBIC);
   end
 
+  logic [COUNT_W-1:0] main;
   localparam int REST_W = COUNT_W + LOG2_W + COUNT_W + LOG2_W;
   shade_delay #(.WIDTH(REST_W), .DEPTH(5)) u_plan (
-    .clk_i, .d_i({main_q23, log2_q23, last_count_q23, last_log2_q23}), .q_o({main_o, log2_o, last_count_o, last_log2_o})
+    .clk_i, .d_i({main_q23, log2_q23, last_count_q23, last_log2_q23}),
+    .q_o({main, plan_o.log2, plan_o.last_count, plan_o.last_log2})
   );
-  shade_delay #(.WIDTH(DEGREE_W), .DEPTH(7)) u_degree (.clk_i, .d_i(degree_q21), .q_o(degree_o));
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_PLANNER + WAIT)) u_valid (
-    .clk_i, .rst_i, .valid_i(valid_i && ready_o), .valid_o
-  );
+  shade_delay #(.WIDTH(DEGREE_W), .DEPTH(7)) u_degree (.clk_i, .d_i(degree_q21), .q_o(plan_o.degree));
+  assign plan_o.main        = main;
+  assign plan_o.split       = main != '0;
+  assign plan_o.last_degree = last_degree_q28;
+
+  logic unused_threshold;
+  assign unused_threshold = &{1'b0, planner_i};
 endmodule

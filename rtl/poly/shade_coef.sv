@@ -15,27 +15,24 @@ module shade_coef #(
   parameter int FORM  = shade_pkg::FORM_REFINED
 ) (
   input  logic                                          clk_i,
-  input  logic                                          rst_i,
-  input  logic                                          valid_i,
   input  logic        [        shade_pkg::DEGREE_W-1:0] degree_i,
   input  logic signed [                      WIDTH-1:0] i1_i,
   input  logic signed [                      WIDTH-1:0] i2_i,
   input  logic signed [                      WIDTH-1:0] i3_i,
   input  logic signed [                      WIDTH-1:0] i4_i,
-  output logic                                          valid_o,
   output logic signed [WIDTH+shade_pkg::COEF_GROWTH-1:0] a_o,
   output logic signed [WIDTH+shade_pkg::COEF_GROWTH-1:0] b_o,
   output logic signed [WIDTH+shade_pkg::COEF_GROWTH-1:0] c_o,
   output logic signed [                      WIDTH-1:0] d_o
 );
   shade_coef_a #(.WIDTH(WIDTH), .NODES(NODES), .FORM(FORM)) u_a (
-    .clk_i, .rst_i, .valid_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .valid_o(), .a_o
+    .clk_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .a_o
   );
   shade_coef_b #(.WIDTH(WIDTH), .NODES(NODES)) u_b (
-    .clk_i, .rst_i, .valid_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .valid_o(), .b_o
+    .clk_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .b_o
   );
   shade_coef_c #(.WIDTH(WIDTH), .NODES(NODES), .FORM(FORM)) u_c (
-    .clk_i, .rst_i, .valid_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .valid_o(), .c_o
+    .clk_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .c_o
   );
-  shade_coef_d #(.WIDTH(WIDTH)) u_d (.clk_i, .rst_i, .valid_i, .i1_i, .valid_o, .d_o);
+  shade_coef_d #(.WIDTH(WIDTH)) u_d (.clk_i, .i1_i, .d_o);
 endmodule

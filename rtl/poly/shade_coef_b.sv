@@ -18,14 +18,11 @@ module shade_coef_b #(
   parameter int NODES = shade_pkg::NODES_LEFT
 ) (
   input  logic                                          clk_i,
-  input  logic                                          rst_i,
-  input  logic                                          valid_i,
   input  logic        [        shade_pkg::DEGREE_W-1:0] degree_i,
   input  logic signed [                      WIDTH-1:0] i1_i,
   input  logic signed [                      WIDTH-1:0] i2_i,
   input  logic signed [                      WIDTH-1:0] i3_i,
   input  logic signed [                      WIDTH-1:0] i4_i,
-  output logic                                          valid_o,
   output logic signed [WIDTH+shade_pkg::COEF_GROWTH-1:0] b_o
 );
   if (WIDTH < 3 || WIDTH > 20) begin : g_check
@@ -69,6 +66,4 @@ module shade_coef_b #(
   logic signed [SUM_W-1:0] half_q9;
   shade_delay #(.WIDTH(SUM_W), .DEPTH(shade_pkg::LATENCY_COEF - 3)) u_align (.clk_i, .d_i(half_q3), .q_o(half_q9));
   assign b_o = {half_q9, 1'b0};
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_COEF)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

@@ -22,14 +22,11 @@ module shade_coef_c #(
   parameter int FORM  = shade_pkg::FORM_REFINED
 ) (
   input  logic                                          clk_i,
-  input  logic                                          rst_i,
-  input  logic                                          valid_i,
   input  logic        [        shade_pkg::DEGREE_W-1:0] degree_i,
   input  logic signed [                      WIDTH-1:0] i1_i,
   input  logic signed [                      WIDTH-1:0] i2_i,
   input  logic signed [                      WIDTH-1:0] i3_i,
   input  logic signed [                      WIDTH-1:0] i4_i,
-  output logic                                          valid_o,
   output logic signed [WIDTH+shade_pkg::COEF_GROWTH-1:0] c_o
 );
   if (WIDTH < 3 || WIDTH > 20) begin : g_check
@@ -103,10 +100,8 @@ module shade_coef_c #(
 
   logic signed [SUM_W-2:0] third_q8;
   shade_third #(.WIDTH(SUM_W), .FORM(FORM)) u_third (
-    .clk_i, .rst_i, .valid_i(1'b0), .x_i(divided_q3), .valid_o(), .y_o(third_q8)
+    .clk_i, .x_i(divided_q3), .y_o(third_q8)
   );
   shade_delay #(.WIDTH(SUM_W), .DEPTH(shade_pkg::LATENCY_THIRD)) u_exact (.clk_i, .d_i(exact_q3), .q_o(exact_q8));
   always_ff @(posedge clk_i) c_o <= OUT_W'(third_q8) + exact_q8;
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_COEF)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

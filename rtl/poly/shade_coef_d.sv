@@ -6,10 +6,7 @@ module shade_coef_d #(
   parameter int WIDTH = shade_pkg::INTENSITY_W
 ) (
   input  logic                    clk_i,
-  input  logic                    rst_i,
-  input  logic                    valid_i,
   input  logic signed [WIDTH-1:0] i1_i,
-  output logic                    valid_o,
   output logic signed [WIDTH-1:0] d_o
 );
   if (WIDTH < 1) begin : g_check
@@ -17,5 +14,4 @@ module shade_coef_d #(
   end
 
   shade_delay #(.WIDTH(WIDTH), .DEPTH(shade_pkg::LATENCY_COEF)) u_align (.clk_i, .d_i(i1_i), .q_o(d_o));
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_COEF)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

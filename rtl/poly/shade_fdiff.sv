@@ -30,7 +30,6 @@ module shade_fdiff #(
   input  logic signed [                        COEF_W-1:0] c_i,
   input  logic signed [                           D_W-1:0] d_i,
   input  logic        [                               3:0] log2_i,
-  output logic                                             valid_o,
   output logic signed [COEF_W+shade_pkg::VALUE_GROWTH-1:0] y_o
 );
   if (COEF_W < 2 || D_W < 2 || D_W > COEF_W || LOG2_MAX < 1 || LOG2_MAX > 12) begin : g_check
@@ -100,6 +99,4 @@ module shade_fdiff #(
   logic signed [VALUE_W-1:0] rounded;
   shade_round #(.WIDTH(STATE_W), .DROP(FRACTION), .OUT_W(VALUE_W)) u_round (.x_i(i_q5), .y_o(rounded));
   always_ff @(posedge clk_i) y_o <= rounded;
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_FDIFF - 4)) u_valid (.clk_i, .rst_i, .valid_i(valid_q4), .valid_o);
 endmodule

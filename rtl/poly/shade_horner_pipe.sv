@@ -16,14 +16,11 @@ module shade_horner_pipe #(
   parameter int T_F    = shade_pkg::T_F
 ) (
   input  logic                                             clk_i,
-  input  logic                                             rst_i,
-  input  logic                                             valid_i,
   input  logic signed [                        COEF_W-1:0] a_i,
   input  logic signed [                        COEF_W-1:0] b_i,
   input  logic signed [                        COEF_W-1:0] c_i,
   input  logic signed [                           D_W-1:0] d_i,
   input  logic        [                             T_F:0] t_i,
-  output logic                                             valid_o,
   output logic signed [COEF_W+shade_pkg::VALUE_GROWTH-1:0] y_o
 );
   if (COEF_W < 2 || COEF_W > 30 || D_W < 2 || D_W > COEF_W || T_F < 2 || T_F > 16) begin : g_check
@@ -61,6 +58,4 @@ module shade_horner_pipe #(
   assign y_o = s_q9[WIDTH-1:GUARD];
   logic unused_guard;
   assign unused_guard = &{1'b0, s_q9[GUARD-1:0]};
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_HORNER_PIPE)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

@@ -7,7 +7,6 @@
 //   s_axis_span   AXI4-Stream, one beat a span: nodes of both channels, degree, pixel count, tag (see shade_span_walk)
 //   m_axis_pixel  AXI4-Stream, one beat a pixel: tdata = {specular, diffuse}, U0.16 each; tuser = tag; tlast = last pixel
 //                 (of the last beat, where a span comes as several: SPAN_MORE)
-//   error_o, error_count_o  see shade_span_walk; a faulty span is dropped and costs one clock
 //
 // Unclamped inside, so that a terminator puts no kink into a polynomial; clamped to [0, 1 - 2^-16] at the end.
 // EVALUATOR_HORNER: six multipliers a channel. EVALUATOR_FDIFF: none. Spans of at most 2^LOG2_MAX pixels.
@@ -32,86 +31,77 @@ module shade_poly_span #(
   input  logic                               m_axis_pixel_tready,
   output logic [shade_pkg::PIXEL_DATA_W-1:0] m_axis_pixel_tdata,
   output logic [       shade_pkg::TAG_W-1:0] m_axis_pixel_tuser,
-  output logic                               m_axis_pixel_tlast,
-  output logic [     shade_pkg::ERROR_W-1:0] error_o,
-  output logic [                       15:0] error_count_o
+  output logic                               m_axis_pixel_tlast
 );
   if (EVALUATOR != shade_pkg::EVALUATOR_HORNER && EVALUATOR != shade_pkg::EVALUATOR_FDIFF) begin : g_check
     $error("shade_poly_span: EVALUATOR must be EVALUATOR_HORNER or EVALUATOR_FDIFF");
   end
 
   localparam bit HORNER = EVALUATOR == shade_pkg::EVALUATOR_HORNER;
-  localparam int NODE_W = shade_pkg::INTENSITY_W;
-  localparam int CHANNEL_W = shade_pkg::NODE_COUNT * NODE_W;
   localparam int LATENCY_EVALUATOR = HORNER ? shade_pkg::LATENCY_HORNER_PIPE : shade_pkg::LATENCY_FDIFF;
   localparam int LATENCY_TOKEN = shade_pkg::LATENCY_COEF + LATENCY_EVALUATOR + 1;
 
   // ---- tokens ------------------------------------------------------------------------------------------------
-  logic valid, first, last, credit;
-  logic [shade_pkg::SPAN_COUNT_LSB-1:0] nodes;
-  logic [shade_pkg::DEGREE_W-1:0] degree;
-  logic [shade_pkg::T_F:0] t;
-  logic [3:0] log2;
-  logic [shade_pkg::TAG_W-1:0] tag;
+  logic valid, valid_e, first_e, credit;
+  shade_pkg::record_t record;
+  shade_pkg::token_t token;
+  assign record = s_axis_span_tdata;
   shade_span_walk #(.LOG2_MAX(LOG2_MAX)) u_walk (
-    .clk_i, .rst_i, .s_axis_span_tvalid, .s_axis_span_tready, .s_axis_span_tdata,
-    .credit_i(credit), .valid_o(valid), .first_o(first), .last_o(last), .nodes_o(nodes), .degree_o(degree), .t_o(t),
-    .log2_o(log2), .tag_o(tag), .error_o, .error_count_o
+    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .record_i(record), .credit_i(credit),
+    .valid_o(valid), .token_o(token)
   );
 
   // what the evaluator needs beside the coefficients
-  logic valid_e, first_e;
   logic [shade_pkg::T_F:0] t_e;
-  logic [3:0] log2_e;
+  logic [shade_pkg::LOG2_W-1:0] log2_e;
   shade_valid #(.DEPTH(shade_pkg::LATENCY_COEF)) u_valid_e (.clk_i, .rst_i, .valid_i(valid), .valid_o(valid_e));
-  shade_ring #(.WIDTH(shade_pkg::T_F + 6), .DEPTH(shade_pkg::LATENCY_COEF)) u_token_e (
-    .clk_i, .rst_i, .d_i({first, log2, t}), .q_o({first_e, log2_e, t_e})
+  shade_ring #(.WIDTH($bits(token.first) + $bits(token.log2) + $bits(token.t)), .DEPTH(shade_pkg::LATENCY_COEF)) u_token_e (
+    .clk_i, .rst_i, .d_i({token.first, token.log2, token.t}), .q_o({first_e, log2_e, t_e})
   );
 
   // ---- the two channels --------------------------------------------------------------------------------------
-  logic [shade_pkg::PIXEL_DATA_W-1:0] pixel;
+  shade_pkg::drawn_t drawn, given;
   for (genvar c = 0; c < shade_pkg::CHANNELS; c++) begin : g_channel
-    localparam int LSB = c * CHANNEL_W;
-    localparam int PIXEL_LSB = c * shade_pkg::PIXEL_W;
-    logic signed [shade_pkg::COEF_W-1:0] ca, cb, cc;
-    logic signed [NODE_W-1:0] cd;
+    shade_pkg::channel_t nodes;
+    shade_pkg::coef_t coef;
     logic signed [shade_pkg::VALUE_W-1:0] value;
-    logic [shade_pkg::PIXEL_W-1:0] clamped;
+    logic [shade_pkg::PIXEL_W-1:0] clamped, clamped_q;
+    assign nodes = c == 0 ? token.diffuse : token.specular;
 
     shade_coef #(.NODES(NODES), .FORM(FORM)) u_coef (
-      .clk_i, .rst_i, .valid_i(1'b0), .degree_i(degree),
-      .i1_i(nodes[LSB+:NODE_W]), .i2_i(nodes[LSB+NODE_W+:NODE_W]),
-      .i3_i(nodes[LSB+NODE_W+NODE_W+:NODE_W]), .i4_i(nodes[LSB+CHANNEL_W-1-:NODE_W]),
-      .valid_o(), .a_o(ca), .b_o(cb), .c_o(cc), .d_o(cd)
+      .clk_i, .degree_i(token.degree), .i1_i(nodes.n0), .i2_i(nodes.n1), .i3_i(nodes.n2), .i4_i(nodes.n3),
+      .a_o(coef.a), .b_o(coef.b), .c_o(coef.c), .d_o(coef.d)
     );
 
     if (HORNER) begin : g_horner
       shade_horner_pipe u_horner (
-        .clk_i, .rst_i, .valid_i(1'b0), .a_i(ca), .b_i(cb), .c_i(cc), .d_i(cd), .t_i(t_e), .valid_o(), .y_o(value)
+        .clk_i, .a_i(coef.a), .b_i(coef.b), .c_i(coef.c), .d_i(coef.d), .t_i(t_e), .y_o(value)
       );
     end else begin : g_fdiff
       shade_fdiff #(.LOG2_MAX(LOG2_MAX)) u_fdiff (
-        .clk_i, .rst_i, .valid_i(valid_e), .first_i(first_e), .a_i(ca), .b_i(cb), .c_i(cc), .d_i(cd), .log2_i(log2_e),
-        .valid_o(), .y_o(value)
+        .clk_i, .rst_i, .valid_i(valid_e), .first_i(first_e), .a_i(coef.a), .b_i(coef.b), .c_i(coef.c), .d_i(coef.d),
+        .log2_i(log2_e), .y_o(value)
       );
     end
 
     shade_saturate #(.WIDTH(shade_pkg::VALUE_W), .OUT_W(shade_pkg::PIXEL_W)) u_clamp (.x_i(value), .y_o(clamped));
-    always_ff @(posedge clk_i) pixel[PIXEL_LSB+:shade_pkg::PIXEL_W] <= clamped;
+    always_ff @(posedge clk_i) clamped_q <= clamped;
   end
+  assign drawn.pixel = {g_channel[1].clamped_q, g_channel[0].clamped_q};
 
   // ---- out ---------------------------------------------------------------------------------------------------
-  logic valid_p, last_p;
-  logic [shade_pkg::TAG_W-1:0] tag_p;
+  logic valid_p;
   shade_valid #(.DEPTH(LATENCY_EVALUATOR + 1)) u_valid_p (.clk_i, .rst_i, .valid_i(valid_e), .valid_o(valid_p));
-  shade_ring #(.WIDTH(shade_pkg::TAG_W + 1), .DEPTH(LATENCY_TOKEN)) u_token_p (
-    .clk_i, .rst_i, .d_i({last, tag}), .q_o({last_p, tag_p})
+  shade_ring #(.WIDTH($bits(token.last) + $bits(token.tag)), .DEPTH(LATENCY_TOKEN)) u_token_p (
+    .clk_i, .rst_i, .d_i({token.last, token.tag}), .q_o({drawn.last, drawn.tag})
   );
-  shade_fifo #(.WIDTH(shade_pkg::PIXEL_DATA_W + shade_pkg::TAG_W + 1)) u_fifo (
-    .clk_i, .rst_i, .valid_i(valid_p), .data_i({last_p, tag_p, pixel}),
-    .valid_o(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready),
-    .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser, m_axis_pixel_tdata}), .taken_o(credit)
+  shade_fifo #(.WIDTH($bits(drawn))) u_fifo (
+    .clk_i, .rst_i, .valid_i(valid_p), .data_i(drawn), .valid_o(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready),
+    .data_o(given), .taken_o(credit)
   );
+  assign m_axis_pixel_tdata = given.pixel;
+  assign m_axis_pixel_tuser = given.tag;
+  assign m_axis_pixel_tlast = given.last;
 
   logic unused_side;  // of what the other evaluator needs
   assign unused_side = &{1'b0, first_e, log2_e, t_e};

@@ -4,7 +4,7 @@
 // path from ready_i to the writer). valid_o and data_o come from registers and hold until ready_i takes them;
 // a word taken frees one credit: taken_o, a clock later.
 // BLOCK = 1, for what is deep or wide: the memory may be a block RAM, whose own register is slow, with another behind it.
-// Capacity 2^LOG2 words. Latency when empty LATENCY_FIFO = 2 clocks, BLOCK = 1: LATENCY_FIFO_BLOCK = 3; one word a clock.
+// Simulation stops when a full one is written. Capacity 2^LOG2 words. Latency when empty LATENCY_FIFO = 2 clocks, BLOCK = 1: LATENCY_FIFO_BLOCK = 3; one word a clock.
 // Example (ready_i = 1): words 5, 6 written in clocks 0, 1 stand at data_o in clocks 2, 3.
 module shade_fifo #(
   parameter int WIDTH = 32,
@@ -65,4 +65,7 @@ module shade_fifo #(
       if (rst_i) valid_o <= 1'b0;
     end
   end
+
+  shade_assert u_overflow (.clk_i, .rst_i, .holds_i(!valid_i || read || write_q + 1'b1 != read_q));
+  shade_stable #(.WIDTH(WIDTH)) u_stable (.clk_i, .rst_i, .valid_i(valid_o), .ready_i, .data_i(data_o));
 endmodule

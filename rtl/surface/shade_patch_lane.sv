@@ -35,9 +35,9 @@ module shade_patch_lane (
   logic [TAG_W-1:0] tag, tag_q;
   logic [2*3*VALUE_W-1:0] values;
   assign {values, more, column, line, tag} = piece_i;
-  shade_walk #(.COUNT_W(LOG2 + 1), .ERROR_W(1), .CREDIT_LOG2(FIFO_LOG2)) u_walk (
-    .clk_i, .rst_i, .valid_i, .ready_o, .count_i((LOG2 + 1)'(more) + (LOG2 + 1)'(1)), .error_i(1'b0),
-    .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first_q), .last_o(last_q), .error_o(), .error_count_o()
+  shade_walk #(.COUNT_W(LOG2 + 1), .CREDIT_LOG2(FIFO_LOG2)) u_walk (
+    .clk_i, .rst_i, .valid_i, .ready_o, .count_i((LOG2 + 1)'(more) + (LOG2 + 1)'(1)),
+    .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first_q), .last_o(last_q)
   );
 
   // ---- two additions a channel ---------------------------------------------------------------------------------------------------

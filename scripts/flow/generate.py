@@ -45,6 +45,8 @@ def package() -> str:
     lines += ["", "  // registers: byte offset, lowest bit of a field, word after reset"]
     for name, (value, comment) in registers.constants().items():
         lines.append(f"  localparam int {name} = {value};{comment and f'  // {comment}'}")
+    lines += ["", "  // widths of the structures below"]
+    lines += [f"  localparam int {name} = {value};" for name, value in types.constants().items()]
     lines += [*_structs(), *_register_file()]
     return "\n".join(
         [*lines, "", "endpackage", "/* verilator lint_on UNUSEDPARAM */", "/* verilator lint_on UNUSEDSIGNAL */", ""]
@@ -260,8 +262,6 @@ CODES = {
     "NODES": "parameter NODES",
     "LIGHT": "bits of flags_o of the light units",
     "LANE": "more bits of a lane's",
-    "ERROR": "bits of error_o",
-    "LINE_ERROR": "more bits of shade_pixel_normals",
 }
 
 
@@ -280,9 +280,7 @@ def interface() -> str:
         lines += [
             f"| `{name}` | {value} | {comments.get(name, '').replace('|', chr(92) + '|')} |"
             for name, value in k.constants().items()
-            if re.fullmatch(rf"{prefix}_[A-Z0-9]+(_[A-Z]+)*", name)
-            and not name.endswith(("_W", "_MAX", "_F"))
-            and not (prefix == "LINE" and name.startswith("LINE_ERROR"))
+            if re.fullmatch(rf"{prefix}_[A-Z0-9]+(_[A-Z]+)*", name) and not name.endswith(("_W", "_MAX", "_F"))
         ]
     lines += [
         "", "## Timing", "",

@@ -71,9 +71,9 @@ def _criterion(form: str) -> Iterator[Case]:
             )  # fmt: skip
 
 
-def increments(rng: np.random.Generator, rows: int) -> Arrays:
+def increments(port: str, rng: np.random.Generator, rows: int) -> Arrays:
     """Increments of normals of every length, one component in four shorter than the others."""
-    g = mixed({f"g{c}_i": signed_range(k.STEP_W) for c in "xyz"})(rng, rows)
+    g = mixed({f"{port}.{c}": signed_range(k.STEP_W) for c in "xyz"})(rng, rows)
     length = rng.integers(0, k.STEP_W, rows)
     return {name: value >> length >> rng.integers(0, 8, rows) * rng.integers(0, 2, rows) for name, value in g.items()}
 
@@ -89,10 +89,10 @@ def _kappa(form: str) -> Iterator[Case]:
     """kappa of increments of every length. Exact: of the bits that are kept; ideal: of all."""
     if form != "refined":
         return
-    names = ("gx_i", "gy_i", "gz_i")
+    names = ("g_i.x", "g_i.y", "g_i.z")
 
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
-        return increments(rng, rows) | {"log2_i": rng.integers(0, 14, rows)} | sharpness(rng, rows)
+        return increments("g_i", rng, rows) | {"log2_i": rng.integers(0, 14, rows)} | sharpness(rng, rows)
 
     def golden(i: Arrays) -> Arrays:
         g = (i[name] for name in names)
@@ -130,24 +130,29 @@ def _planner(form: str) -> Iterator[Case]:
         limits = (
             plan.THRESHOLDS if rng.integers(2) else np.sort(rng.integers(0, 1 << rng.integers(1, k.KAPPA_W + 1, 3)))
         )
-        static = dict(zip(("t1_i", "t2_i", "t3_i"), limits, strict=True)) | {
-            "fixed_degree_i": rng.integers(1, 4) if rng.integers(4) == 0 else 0
-        }
+        static = dict(zip((f"planner_i.{name}" for name in ("t1", "t2", "t3")), limits, strict=True)) | {
+            "fixed_degree_i": rng.integers(1, 4) if rng.integers(4) == 0 else 0, "planner_i.threshold": 0
+        }  # fmt: skip
+        sharp = dict(
+            zip(("planner_i.sharpness", "planner_i.sharpness_exp"), sharpness(rng, rows).values(), strict=True)
+        )
         near = (1 << rng.integers(0, k.COUNT_W, rows)) + rng.integers(-2, 3, rows)
         count = np.choose(rng.integers(0, 3, rows), [near, rng.integers(0, 20, rows), rng.integers(0, 8192, rows)])
         return (
-            increments(rng, rows)
+            increments("increment_i", rng, rows)
             | {"count_i": count.clip(0, (1 << k.COUNT_W) - 1), "flat_i": (rng.random(rows) < 0.1).astype(np.int64)}
-            | sharpness(rng, rows)
+            | sharp
             | {name: np.full(rows, value) for name, value in static.items()}
         )
 
     def golden(i: Arrays) -> Arrays:
         planned = plan.planner(
-            *(i[f"{name}_i"] for name in ("gx", "gy", "gz", "count", "mantissa", "exponent")),
-            (i["t1_i"], i["t2_i"], i["t3_i"]), int(i["fixed_degree_i"][0]), i["flat_i"],
+            *(i[f"increment_i.{axis}"] for axis in "xyz"), i["count_i"], i["planner_i.sharpness"],
+            i["planner_i.sharpness_exp"], tuple(i[f"planner_i.{name}"] for name in ("t1", "t2", "t3")),
+            int(i["fixed_degree_i"][0]), i["flat_i"],
         )  # fmt: skip
-        return {f"{name}_o": value for name, value in planned._asdict().items()}
+        split = (planned.main != 0).astype(np.int64)
+        return {f"plan_o.{name}": value for name, value in (planned._asdict() | {"split": split}).items()}
 
     for fold, latency in ((1, k.LATENCY_PLANNER), (6, k.LATENCY_PLANNER_FOLDED)):
         yield Case(

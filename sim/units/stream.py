@@ -16,7 +16,7 @@ from polyshade.sim.units.poly import coefficient
 def check_poly_span(
     form: str, evaluator: int, spans: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0
 ) -> Result:
-    """Whole spans through ``shade_poly_span``: random nodes, degrees, lengths up to 4096, faulty ones among them.
+    """Whole spans through ``shade_poly_span``: random nodes, degrees, lengths up to 4096.
 
     Errors are measured against the exact polynomial through the quantized nodes, clamped. ``latency`` is that of the
     first pixel, ``throughput`` in pixels a clock. Intensities reach over [-1, 1], so that clamping is exercised.
@@ -26,8 +26,6 @@ def check_poly_span(
     nodes[::3] = rng.integers(0, ONE, nodes[::3].shape, endpoint=True)
     degree = rng.integers(0, 3, spans, endpoint=True)
     count = np.where(degree == k.DEGREE_DIRECT, rng.integers(1, 4, spans, endpoint=True), rng.geometric(0.08, spans))
-    count[rng.integers(0, spans, spans // 64)] = 0
-    count[rng.integers(0, spans, 2)] = rng.integers(k.PIXELS_MAX + 1, 1 << k.COUNT_W, 2)
     degree[1], count[1] = k.DEGREE_CUBIC, k.PIXELS_MAX
     degree[0], count[0] = k.DEGREE_LINEAR, 3  # its first pixel measures the latency
     tag, more = rng.integers(0, 1 << k.TAG_W, spans), rng.integers(0, 2, spans)
@@ -36,14 +34,13 @@ def check_poly_span(
     model = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=FORMS[form])
     run = model.run(s_axis_span_tdata=beats, in_gap=in_gap, out_stall=out_stall, seed=seed)
     pixels, owner = poly.poly_span(nodes, degree, count, evaluator=evaluator, form=FORMS[form])
-    bad = poly.span_errors(degree, count)
     result = _stream_result(
-        run, "pixel", pixels[:, 0] | pixels[:, 1] << k.PIXEL_W, tag, owner, bad, np.count_nonzero(bad),
+        run, "pixel", pixels[:, 0] | pixels[:, 1] << k.PIXEL_W, tag, owner,
         k.LATENCY_POLY_SPAN_HORNER if evaluator == k.EVALUATOR_HORNER else k.LATENCY_POLY_SPAN_FDIFF, bool(out_stall),
         more,
     )  # fmt: skip
 
-    span, j = poly.span_walk(degree, count)
+    span, j = poly.span_walk(count)
     for formula, name in ((form, "max_error_ulp"), ("refined", "max_error_ideal")):
         error = np.abs(pixels - _exact_pixels(formula, nodes, degree, count, span, j))
         at = np.unravel_index(np.argmax(error), error.shape)
@@ -69,15 +66,13 @@ def _exact_pixels(form: str, nodes, degree, count, span, j) -> np.ndarray:
 def check_pixel_normals(
     lines: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, variants: Sequence[int] = range(8)
 ) -> Result:
-    """Whole lines of normals through ``shade_pixel_normals``: random ends, lengths, variants, thresholds, some faulty.
+    """Whole lines of normals through ``shade_pixel_normals``: random ends, lengths, variants, thresholds.
 
     ``max_error_ulp`` and ``max_error_ideal`` of the pixels that are normalized exactly, against the unit vector of the
     interpolated normal; ``latency`` of the first normal, ``throughput`` in normals a clock.
     """
     rng = np.random.default_rng([seed, 7])
     count = rng.geometric(0.1, lines)
-    count[rng.integers(1, lines, lines // 64)] = 0
-    count[rng.integers(2, lines, 2)] = rng.integers(k.PIXELS_MAX + 1, 1 << k.COUNT_W, 2)
     count[1] = k.PIXELS_MAX
     count[0] = 3  # its first normal measures the latency
     first, other = (unit_vectors(rng, lines).T / ONE for _ in range(2))
@@ -100,9 +95,7 @@ def check_pixel_normals(
     golden, owner = normal.pixel_normals(normals, steps, count, cosine, variant, threshold)
     mask = (1 << k.INTENSITY_W) - 1
     data = sum((golden[:, i] & mask) << k.INTENSITY_W * i for i in range(3))
-    errors = normal.line_errors(count, variant, threshold)
-    dropped = np.count_nonzero((count == 0) | (count > k.PIXELS_MAX))
-    result = _stream_result(run, "normal", data, tag, owner, errors, dropped, k.LATENCY_PIXEL_NORMALS, bool(out_stall))
+    result = _stream_result(run, "normal", data, tag, owner, k.LATENCY_PIXEL_NORMALS, bool(out_stall))
 
     j = np.arange(len(owner)) - np.searchsorted(owner, owner)
     exact = (j % 2 == 0) | (j == count[owner] - 1) | (variant[owner] == k.VARIANT_EXACT)
@@ -119,10 +112,8 @@ def check_pixel_normals(
     return result
 
 
-def _stream_result(
-    run: sim.Run, word: str, data, tag, owner, errors, dropped: int, declared: int, stalled: bool, more=None
-) -> Result:
-    """Compare the words of a stream ``m_axis_<word>``, its tags, its ends, the status and the first one's latency.
+def _stream_result(run: sim.Run, word: str, data, tag, owner, declared: int, stalled: bool, more=None) -> Result:
+    """Compare the words of a stream ``m_axis_<word>``, its tags, its ends and the first one's latency.
 
     ``more``: 1 for the items whose last word is no end.
     """
@@ -132,7 +123,6 @@ def _stream_result(
         last &= 1 - more[owner]
     expected = {f"{unit}_tdata": data, f"{unit}_tuser": tag[owner], f"{unit}_tlast": last}
     result = Result(vectors=len(data), latency=int(run.given[0] - run.taken[0]), throughput=len(data) / run.clocks)
-    status = {"error_o": int(np.bitwise_or.reduce(errors)), "error_count_o": int(dropped)}
     unequal = [name for name, value in expected.items() if not np.array_equal(value, run.outputs[name])]
     if len(run.given) != len(data):
         result.mismatches = abs(len(run.given) - len(data))
@@ -145,8 +135,6 @@ def _stream_result(
             f"{name} expected {hexadecimal(expected[name][at])} actual {hexadecimal(run.outputs[name][at])}"
             for name in unequal
         )
-    elif run.status != status:
-        result.mismatches, result.first_mismatch = 1, f"{unit}: status {run.status}, expected {status}"
     elif not stalled and result.latency != declared:
         result.mismatches, result.first_mismatch = 1, f"{unit}: latency {result.latency}, declared {declared}"
     return result

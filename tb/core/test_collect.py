@@ -7,9 +7,10 @@ from polyshade.golden import contract as k
 from polyshade.golden.core import collect
 from polyshade.golden.plan import node_walk
 from polyshade.golden.poly import pack_spans
+from polyshade.golden.types import INTENSITY, PLACE, whole
 
 from tb.bench import TRAFFIC, Bench, checked, patterns
-from tb.core.vectors import whole
+from tb.core.vectors import number
 from tb.plan.test_node_walk import spans
 from tb.runner import simulate
 
@@ -35,11 +36,12 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
     used = pack_spans(used_slots(nodes.degree, nodes.count), 0, 0)
     beside = (1 << k.SPAN_DATA_W) - (1 << k.SPAN_COUNT_LSB)
 
+    record = {name: getattr(nodes, name)[of] for name in ("count", "more", "degree", "log2")} | {"tag": tag[of]}
+    place = {"slot": nodes.slot, "shared": nodes.shared, "last": last}
     inputs = {
-        "diffuse_i": light[:, 0], "specular_i": light[:, 1], "slot_i": nodes.slot, "shared_i": nodes.shared,
-        "last_i": last, "count_i": nodes.count[of], "degree_i": nodes.degree[of], "more_i": nodes.more[of],
-        "tag_i": tag[of],
-    }  # fmt: skip
+        "light_i": whole(INTENSITY, {"diffuse": light[:, 0], "specular": light[:, 1]}),
+        "place_i": whole(PLACE, place | {f"head.{name}": value for name, value in record.items()}),
+    }
     entries = [(getattr(bench.dut, name), patterns(getattr(bench.dut, name), v)) for name, v in inputs.items()]
     node, due = 0, None
     while node < rows or due is not None:
@@ -50,9 +52,9 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
         await bench.tick()
         bench.equal(int(bench.dut.valid_o.value), due is not None, f"record {due}: valid_o")
         if due is not None:
-            mask = whole(used[due]) | beside
+            mask = number(used[due]) | beside
             shown = int(bench.dut.record_o.value) & mask
-            bench.equal(shown, whole(expected[due]) & mask, f"record {due}: record_o", k.SPAN_DATA_W)
+            bench.equal(shown, number(expected[due]) & mask, f"record {due}: record_o", k.SPAN_DATA_W)
         due = int(of[node]) if sends and last[node] and not in_reset else None
         node = next(start for start in starts if start >= node + sends) if in_reset else node + sends
 

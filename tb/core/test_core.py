@@ -142,7 +142,7 @@ class Core:
         return (await self.axil.write(offset, word.to_bytes(4, "little"))).resp
 
     async def begin(self, draw: dict[str, int]) -> None:
-        """The settings of the next draw call; counters and status from 0, the first span to lane 0."""
+        """The settings of the next draw call; counters and status from 0."""
         before, self.draw = pack(self.draw), after_reset() | draw
         for offset, word in pack(self.draw | {"clear": 1}).items():
             if word != before[offset]:
@@ -165,14 +165,14 @@ class Core:
 
     def golden(self, sent: Spans, torn: np.ndarray | int = 0) -> Told:
         """What is to come of spans."""
-        names = ("lanes", "colour", "evaluator", "form", "reflect", "divide", "path_normals")
+        names = ("colour", "evaluator", "form", "reflect", "divide", "path_normals")
         options = {name: self.bench.parameter(name.upper()) for name in names}
         return golden_core(
             sent.normal, sent.step, sent.count, self.draw, torn=torn, flat=sent.flat, cosine=sent.cosine, **options
         )
 
-    async def compare(self, sent: Spans, told: Told) -> None:
-        """Wait for all pixels and compare every lane's; no more may come. Then counters and status."""
+    async def compare(self, sent: Spans, told: Told, counters: bool = True) -> None:
+        """Wait for all pixels and compare every lane's; no more may come. Then counters, if wanted, and status."""
         bench, watch, total = self.bench, self.watch, len(told.span)
         await bench.until(lambda: watch.pixels >= total, 5 * total + 30 * len(sent.count) + 500, f"{total} pixels")
         await self.source.wait()
@@ -180,14 +180,24 @@ class Core:
         widths = np.arange(told.pixels.shape[1]) * k.PIXEL_W
         tdata, tuser = (told.pixels << widths).sum(axis=1), sent.tag[told.span]
         tlast = np.append(np.diff(told.span), 1)[:total] != 0
-        for lane, words in enumerate(watch.words):
-            own = np.flatnonzero(told.lane == lane)
-            bench.equal(len(words), len(own), f"pixels of lane {lane}")
-            for index, word in zip(own.tolist(), words, strict=True):
+        start, end = np.searchsorted(told.span, told.span), np.searchsorted(told.span, told.span, "right")
+        first = {int(sent.tag[told.span[at]]): at for at in np.unique(start).tolist()}  # pixel by its span's tag
+        for lane, words in enumerate(
+            watch.words
+        ):  # spans of a lane come in order, each from its first pixel to its last
+            before = index = stop = -1
+            for word in words:
+                if index == stop:
+                    index = first.get(word[1], -1)
+                    bench.equal(index > before, True, f"lane {lane}: the next span has a tag behind those that came")
+                    before, stop = index, int(end[index])
                 what = f"pixel {index} (span {told.span[index]}, lane {lane})"
                 for name, actual, wanted in zip(PAYLOAD, word, (tdata, tuser, tlast), strict=True):
                     bench.equal(actual, int(wanted[index]), f"{what}: {name}", 48)
-        for name, wanted in (told.counters | watch.counted).items():
+                index += 1
+            bench.equal(index, stop, f"end of the last span of lane {lane}")
+        bench.equal(watch.pixels, total, "number of pixels")
+        for name, wanted in (told.counters | watch.counted if counters else {}).items():
             bench.equal(await self.read(name.upper()), wanted, name)
         status = unpack(OFFSETS["STATUS"], await self.read("STATUS"))
         for name, wanted in ({"busy": 0} | told.status).items():
@@ -269,7 +279,8 @@ async def latency(bench: Bench) -> None:
         await core.begin({"path": path, "colour": colour})
         sent = calm(bench, [1])
         await core.compare(sent, core.send(sent))
-        bench.equal(core.watch.clocks[0][0] - core.watch.taken[0], core.latency, "latency")
+        (clock,) = (clock for lane in core.watch.clocks for clock in lane)
+        bench.equal(clock - core.watch.taken[0], core.latency, "latency")
 
 
 @checked(path=[k.PATH_POLY, k.PATH_NORMALS])
@@ -280,24 +291,41 @@ async def throughput(bench: Bench, path: int) -> None:
     sent = spans(bench, [8] * 30 * core.watch.lanes)
     await core.compare(sent, core.send(sent))
     clocks = [clock for lane in core.watch.clocks for clock in lane]
-    bench.equal(max(clocks) - min(clocks) + 1, 240 + core.watch.lanes - 1, "clocks of all pixels")
+    took = max(clocks) - min(clocks) + 1
+    bench.equal(240 <= took <= 240 + 3 * 8 * (core.watch.lanes > 1), True, f"{took} clocks of all pixels, enough")
 
 
 @checked(path=[k.PATH_POLY, k.PATH_NORMALS])
 async def blocked(bench: Bench, path: int) -> None:
-    """A lane whose sink is not ready for long holds up the others in time, not in what they give."""
+    """A lane whose sink is not ready for long fills up, and holds up nobody else: spans go to those with less."""
     core = Core(bench)
-    await core.begin(any_settings(bench, k.MODEL_BLINN, path))
-    core.stall[random.randrange(core.watch.lanes)] = 1.0
-    sent = spans(bench, [7] * 230 * core.watch.lanes)
+    lanes = core.watch.lanes
+    await core.begin(any_settings(bench, k.MODEL_BLINN, path) | {"fixed_degree": k.DEGREE_CUBIC})
+    still = random.randrange(lanes)
+    core.stall[still] = 1.0
+    sent = spans(bench, [7] * 230 * lanes)
     told = core.send(sent)
-    await bench.tick(300 * core.watch.lanes + 1000)
-    bench.equal(len(core.watch.taken) < len(sent.count), True, "the core is full")
-    before = core.watch.pixels
-    await bench.tick(200)
-    bench.equal(core.watch.pixels, before, "pixels while it is")
-    core.stall = [0.0] * core.watch.lanes
+    await bench.tick(230 * 7 * lanes + 1000)
+    if lanes == 1:
+        bench.equal(len(core.watch.taken) < len(sent.count), True, "the core is full")
+    else:
+        others = core.watch.pixels - len(core.watch.words[still])
+        bench.equal(others > 7 * 200 * (lanes - 1), True, f"the others draw on, {others} pixels so far")
+    core.stall = [0.0] * lanes
     await core.compare(sent, told)
+
+
+@checked()
+async def fair(bench: Bench) -> None:
+    """A long span among short ones keeps its lane busy, not the others: a pixel a clock and lane on the whole."""
+    core = Core(bench)
+    lanes = core.watch.lanes
+    await core.begin({"model": k.MODEL_BLINN, "fixed_degree": k.DEGREE_LINEAR, "t3": 0})
+    sent = calm(bench, [64, *[4] * (lanes - 1)] * 120)
+    await core.compare(sent, core.send(sent))
+    clocks = [clock for lane in core.watch.clocks for clock in lane]
+    rate = len(clocks) / (max(clocks) - min(clocks) + 1)
+    bench.equal(rate > 0.8 * lanes, True, f"pixels a clock: {rate:.2f} of {lanes} lanes, enough")
 
 
 @checked()
@@ -392,6 +420,27 @@ async def cleared(bench: Bench) -> None:
     await bench.until(lambda: core.watch.pixels >= len(told.span), 2000, "all pixels")
     bench.equal(await core.read("SPANS"), 0, "SPANS")
     bench.equal(0 < await core.read("PIXELS") < len(told.span), True, "PIXELS count on")
+
+
+@checked(wait=[0, 3, 17])
+async def cleared_with_a_span_at_the_door(bench: Bench, wait: int) -> None:
+    """CONTROL.clear while every lane is full and spans wait: none is lost, none comes twice, all count from 0."""
+    core = Core(bench)
+    await core.begin({"gain": 1 << k.GAIN_F})
+    core.stall = [1.0] * core.watch.lanes
+    sent = calm(bench, [7] * 230 * core.watch.lanes)
+    told = core.send(sent)
+    await bench.tick(300 * core.watch.lanes + 1000 + wait)
+    bench.equal(int(bench.dut.s_axis_span_tready.value), 0, "s_axis_span_tready of a full core")
+    spans_before = await core.read("SPANS")
+    word = pack(core.draw | {"clear": 1})[OFFSETS["CONTROL"]]
+    bench.equal(await core.write(OFFSETS["CONTROL"], word), AxiResp.OKAY, "bresp")
+    bench.equal(await core.read("SPANS"), 0, "SPANS")
+    core.stall = [0.0] * core.watch.lanes
+    await bench.until(lambda: core.watch.pixels >= len(told.span), 5 * len(told.span), "all pixels")
+    bench.equal(await core.read("SPANS"), len(sent.count) - spans_before, "SPANS behind it")
+    bench.equal(await core.read("PIXELS"), len(told.span), "PIXELS behind it")
+    await core.compare(sent, told, counters=False)
 
 
 @checked()

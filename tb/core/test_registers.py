@@ -8,7 +8,7 @@ import cocotb
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
 from polyshade.golden import registers
 from polyshade.golden.core import RegisterFile
-from polyshade.golden.types import DRAW
+from polyshade.golden.types import COUNTS, DRAW, whole
 
 from tb.bench import PRESSURE, Bench, Mismatch, Sink, Source, checked, no_path
 from tb.runner import simulate
@@ -27,9 +27,7 @@ def test_cocotb():
 def quiet(bench: Bench, busy: int = 0) -> None:
     """Nothing happens in the core."""
     bench.dut.busy_i.value = busy
-    bench.dut.events_i.value = 0
-    for name in COUNTERS:
-        getattr(bench.dut, f"{name}_i").value = 0
+    bench.dut.events_i.value = bench.dut.counts_i.value = 0
 
 
 class Bus:
@@ -242,8 +240,7 @@ class Core:
                 busy = random.getrandbits(1)
                 increments = {name: random.getrandbits(bits) for name, bits in COUNTERS.items()}
             dut.events_i.value, dut.busy_i.value = events, busy
-            for name, increment in increments.items():
-                getattr(dut, f"{name}_i").value = increment
+            dut.counts_i.value = whole(COUNTS, increments)[0]
             await self.bench.tick()
             if int(dut.clear_o.value):
                 self.file.clear()

@@ -32,7 +32,7 @@ class Spans:
     def words(self) -> list[tuple[int]]:
         """What a source sends as ``s_axis_span_tdata``."""
         beats = pack_lines(self.normal, self.step, self.count, self.cosine, self.tag, self.flat)
-        return [(whole(beat),) for beat in beats]
+        return [(number(beat),) for beat in beats]
 
     @property
     def faulty(self) -> np.ndarray:
@@ -54,7 +54,11 @@ def spans(bench: Bench, count: ArrayLike) -> Spans:
     normal, step = (
         np.select([kind == 0, kind == 1], [part, 0], v) for part, v in zip(free, (normal, step), strict=True)
     )
-    tag, cosine, flat = rng.integers(0, 1 << k.TAG_W, rows), bench.signed(k.INTENSITY_W, rows), rng.integers(0, 2, rows)
+    tag, cosine, flat = (
+        rng.permutation(1 << k.TAG_W)[:rows],
+        bench.signed(k.INTENSITY_W, rows),
+        rng.integers(0, 2, rows),
+    )
     return Spans(normal, step, count, tag, cosine, flat)
 
 
@@ -77,6 +81,6 @@ def set_draw(bench: Bench, draw: dict[str, int]) -> None:
     bench.dut.draw_i.value = types.whole(types.DRAW, named(draw))[0]
 
 
-def whole(words: np.ndarray) -> int:
+def number(words: np.ndarray) -> int:
     """Words of 32 bits, least significant first, as one number."""
     return int.from_bytes(words.astype("<u4").tobytes(), "little")

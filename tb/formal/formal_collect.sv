@@ -5,44 +5,39 @@ module formal_collect (
   input logic        clk_i,
   input logic        rst_i,
   input logic        valid_i,
-  input logic [17:0] diffuse_i,
-  input logic [17:0] specular_i,
-  input logic [ 1:0] slot_i,
-  input logic        shared_i,
-  input logic        last_i,
-  input logic [12:0] count_i,
-  input logic [ 1:0] degree_i,
-  input logic        more_i,
-  input logic [15:0] tag_i,
+  input logic [35:0] light_i,  // intensity_t
+  input logic [shade_pkg::PLACE_BITS-1:0] place_i,
   input logic [ 1:0] chosen_i,
   input logic [ 4:0] bit_i
 );
   localparam int W = shade_pkg::INTENSITY_W;
   logic valid;
-  logic [shade_pkg::SPAN_DATA_W-1:0] record;
+  shade_pkg::record_t record;
+  shade_pkg::intensity_t lit;
+  shade_pkg::place_t place;
+  assign lit   = light_i;
+  assign place = place_i;
   shade_collect u_dut (
-    .clk_i, .rst_i, .valid_i, .diffuse_i, .specular_i, .slot_i, .shared_i, .last_i, .count_i, .degree_i, .more_i,
-    .tag_i, .valid_o(valid), .record_o(record)
+    .clk_i, .rst_i, .valid_i, .light_i(lit), .place_i(place), .valid_o(valid), .record_o(record)
   );
 
   logic started_q = 1'b0;
-  logic last_q, more_q, known_q, diffuse_q, specular_q, before_known_q;
-  logic [1:0] chosen_q, before_q, degree_q;
+  logic last_q, known_q, diffuse_q, specular_q, before_known_q;
+  logic [1:0] chosen_q, before_q;
   logic [4:0] bit_q;
-  logic [12:0] count_q;
-  logic [15:0] tag_q;
+  shade_pkg::head_t head_q;
   always_ff @(posedge clk_i) begin
     started_q <= 1'b1;
     if (!started_q) {chosen_q, bit_q} <= {chosen_i, bit_i};
-    last_q <= valid_i && last_i;
+    last_q <= valid_i && place.last;
     if (valid_i) begin
-      {more_q, degree_q, count_q, tag_q} <= {more_i, degree_i, count_i, tag_i};
+      head_q <= place.head;
       before_known_q <= 1'b1;
-      before_q <= {specular_i[bit_q], diffuse_i[bit_q]};
-      if (slot_i == chosen_q) begin
+      before_q <= {lit.specular[bit_q], lit.diffuse[bit_q]};
+      if (place.slot == chosen_q) begin
         known_q <= 1'b1;
-        {specular_q, diffuse_q} <= {specular_i[bit_q], diffuse_i[bit_q]};
-      end else if (shared_i && chosen_q == 2'd0) begin
+        {specular_q, diffuse_q} <= {lit.specular[bit_q], lit.diffuse[bit_q]};
+      end else if (place.shared && chosen_q == 2'd0) begin
         known_q <= before_known_q;
         {specular_q, diffuse_q} <= before_q;
       end
@@ -51,8 +46,8 @@ module formal_collect (
   end
 
   logic [W-1:0] diffuse, specular;
-  assign diffuse  = record[W*chosen_q+:W];
-  assign specular = record[W*(shade_pkg::NODE_COUNT+chosen_q)+:W];
+  assign diffuse  = W'(record.diffuse >> W * chosen_q);
+  assign specular = W'(record.specular >> W * chosen_q);
   always_ff @(posedge clk_i) begin
     // The first clock is one of reset, from any state.
     if (!started_q) reset_first : assume (rst_i);
@@ -60,17 +55,14 @@ module formal_collect (
     if (started_q) one_of_its_bits : assume (bit_q < 5'd18);
     if (started_q) begin
       // A record comes a clock after its last node, and at no other time.
-      // mutant: valid_o <= valid_i && last_i => valid_o <= valid_i
+      // mutant: valid_o <= !rst_i && valid_i && place_i.last => valid_o <= !rst_i && valid_i
       in_time : assert (valid == last_q);
       // Each slot holds the light of the node that came last for it; slot 0 of a shared node that of the node before.
-      // mutant: valid_i && shared_i && slot == 0 => valid_i && shared_i && slot == 1
+      // mutant: valid_i && place_i.shared && slot == 0 => valid_i && place_i.shared && slot == 1
       light : assert (!(valid && known_q) || (diffuse[bit_q] == diffuse_q && specular[bit_q] == specular_q));
       // The record's own fields are those that came with its last node.
-      // mutant: <= more_i => <= !more_i
-      fields : assert (
-        !valid || (record[shade_pkg::SPAN_COUNT_LSB+:13] == count_q && record[shade_pkg::SPAN_DEGREE_LSB+:2] == degree_q
-        && record[shade_pkg::SPAN_MORE] == more_q && record[shade_pkg::SPAN_TAG_LSB+:16] == tag_q)
-      );
+      // mutant: head_q   <= place_i.head => head_q   <= ~place_i.head
+      fields : assert (!valid || record.head == head_q);
     end
   end
 endmodule

@@ -26,8 +26,7 @@ module formal_registers (
     .s_axil_wstrb(wstrb_i), .s_axil_bvalid(bvalid), .s_axil_bready(bready_i), .s_axil_bresp(bresp),
     .s_axil_arvalid(arvalid_i), .s_axil_arready(arready), .s_axil_araddr(araddr_i), .s_axil_arprot(3'd0),
     .s_axil_rvalid(rvalid), .s_axil_rready(rready_i), .s_axil_rdata(rdata), .s_axil_rresp(rresp), .draw_o(draw),
-    .change_o(change), .clear_o(clear), .busy_i, .events_i('0), .pixels_i('0), .spans_i('0), .stalls_i('0),
-    .evaluations_i('0), .errors_i('0)
+    .change_o(change), .clear_o(clear), .busy_i, .events_i('0), .counts_i('0)
   );
 
   logic started_q = 1'b0;

@@ -4,24 +4,19 @@ module formal_third #(
   parameter int FORM  = 1
 ) (
   input logic                    clk_i,
-  input logic                    rst_i,
-  input logic                    valid_i,
   input logic signed [WIDTH-1:0] x_i
 );
   localparam int LATENCY = shade_pkg::LATENCY_THIRD;
   localparam int W = WIDTH + 8;
-  logic valid;
   logic signed [WIDTH-2:0] y;
-  shade_third #(.WIDTH(WIDTH), .FORM(FORM)) u_dut (.clk_i, .rst_i, .valid_i, .x_i, .valid_o(valid), .y_o(y));
+  shade_third #(.WIDTH(WIDTH), .FORM(FORM)) u_dut (.clk_i, .x_i, .y_o(y));
 
   logic [3:0] age_q = '0;  // clocks since any state
   logic [LATENCY*WIDTH-1:0] x_q;
-  logic [LATENCY-1:0] valid_q;
   logic signed [W-1:0] x, sum;
   always_ff @(posedge clk_i) begin
     if (age_q != 4'(LATENCY)) age_q <= age_q + 4'd1;
-    x_q     <= {x_q[(LATENCY-1)*WIDTH-1:0], x_i};
-    valid_q <= rst_i ? '0 : {valid_q[LATENCY-2:0], valid_i};
+    x_q <= {x_q[(LATENCY-1)*WIDTH-1:0], x_i};
   end
   assign x   = W'($signed(x_q[LATENCY*WIDTH-1-:WIDTH]));
   assign sum = FORM == shade_pkg::FORM_REFINED ? 2 * x + W'(3) - 6 * W'(y) : 43 * x + W'(64) - 128 * W'(y);
@@ -30,8 +25,6 @@ module formal_third #(
       // The nearest integer, LATENCY_THIRD clocks later.
       // mutant: sum_q3 <= sum_q2 + (sum_q2 >>> 8) => sum_q3 <= sum_q2 + (sum_q2 >>> 7)
       nearest : assert (sum >= '0 && sum < (FORM == shade_pkg::FORM_REFINED ? W'(6) : W'(128)));
-      // mutant: DEPTH(shade_pkg::LATENCY_THIRD) => DEPTH(shade_pkg::LATENCY_THIRD - 1)
-      valid_beside : assert (valid == valid_q[LATENCY-1]);
     end
   end
 endmodule

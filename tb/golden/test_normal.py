@@ -45,10 +45,10 @@ def test_a_line_by_hand() -> None:
     assert of.tolist() == [0] * 5
 
 
-def test_lines_that_give_nothing() -> None:
-    n, g = np.zeros((3, 3), int), np.zeros((3, 3), int)
-    n[:, 2] = 1 << k.STEP_F
-    _, of = normal.pixel_normals(n, g, [0, 2, k.PIXELS_MAX + 1], [ONE] * 3, k.VARIANT_V1, ONE)
-    assert of.tolist() == [1, 1]
-    errors = normal.line_errors([0, 2, k.PIXELS_MAX + 1], k.VARIANT_V1, ONE)
-    assert errors.tolist() == [1 << k.ERROR_EMPTY, 1 << k.LINE_ERROR_METRIC, 1 << k.ERROR_LONG]
+def test_errors_of_lines() -> None:
+    """A line of fewer than 3 sectors or more than 12 is told where d1a decides, a threshold outside [0, 1] always."""
+    count = [2, 3, 4, 13, 14, 4, 4]
+    threshold = [0, 0, 0, 0, ONE, -1, ONE + 1]
+    metric, limit = normal.line_errors(count, k.VARIANT_V1, threshold)
+    assert metric.tolist() == [1, 1, 0, 0, 1, 0, 0] and limit.tolist() == [0, 0, 0, 0, 0, 1, 1]
+    assert not normal.line_errors(count, k.VARIANT_V4, 0)[0].any()

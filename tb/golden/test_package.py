@@ -15,7 +15,7 @@ from types import ModuleType
 import pytest
 from polyshade import golden
 from polyshade.golden import contract as k
-from polyshade.golden import registers
+from polyshade.golden import registers, types
 from polyshade.scripts.flow import generate
 from polyshade.sim.sources import ROOT
 
@@ -127,7 +127,8 @@ def test_what_is_not_up_to_date(
 def test_every_constant_reaches_the_rtl() -> None:
     text = generate.package()
     written = {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", text)}
-    assert written == k.constants() | {name: value for name, (value, _) in registers.constants().items()}
+    words = {name: value for name, (value, _) in registers.constants().items()}
+    assert written == k.constants() | words | types.constants()
 
 
 def test_formats_fit() -> None:

@@ -238,32 +238,12 @@ def test_span_log2() -> None:
         assert log2 == 0 or count - 1 > 1 << log2 - 1
 
 
-@pytest.mark.parametrize(
-    ("degree", "count", "error"),
-    [(3, 1, 0), (3, 4096, 0), (0, 4, 0), (3, 0, 0b001), (0, 0, 0b001), (1, 4097, 0b010), (2, 8191, 0b010),
-     (0, 5, 0b100), (0, 4096, 0b100), (0, 4097, 0b110)],
-)  # fmt: skip
-def test_span_errors(degree: int, count: int, error: int) -> None:
-    assert poly.span_errors(degree, count) == error
-    span, _ = poly.span_walk([degree, 1], [count, 1])
-    assert len(span) == (1 if error else count + 1)
-    assert span[-1] == 1
-
-
-def test_span_errors_of_a_shorter_reach() -> None:
-    assert poly.span_errors(1, [16, 17], log2_max=4).tolist() == [0, 0b010]
-
-
 def test_span_walk() -> None:
-    """Every pixel of every good span, in order."""
-    degree, count = RNG.integers(0, 4, 300), RNG.integers(0, 12, 300)
-    expected = [
-        (span, j)
-        for span, (d, n) in enumerate(zip(degree, count, strict=True))
-        for j in range(n if d or n <= k.DIRECT_MAX else 0)
-    ]
-    assert list(zip(*(v.tolist() for v in poly.span_walk(degree, count)), strict=True)) == expected
-    assert [len(v) for v in poly.span_walk(np.zeros(0, int), np.zeros(0, int))] == [0, 0]
+    """Every pixel of every span, in order."""
+    count = RNG.integers(0, 12, 300)
+    expected = [(span, j) for span, n in enumerate(count.tolist()) for j in range(n)]
+    assert list(zip(*(v.tolist() for v in poly.span_walk(count)), strict=True)) == expected
+    assert [len(v) for v in poly.span_walk(np.zeros(0, int))] == [0, 0]
 
 
 @pytest.mark.parametrize("evaluator", [k.EVALUATOR_HORNER, k.EVALUATOR_FDIFF])
@@ -273,10 +253,10 @@ def test_poly_span(evaluator: int, form: int, node_set: int) -> None:
     """Pixel by pixel: coefficients of the span, t = j / 2^k, clamped at the end and not before."""
     nodes = RNG.integers(-ONE, 2 * ONE, (40, k.CHANNELS, k.NODE_COUNT))
     degree = RNG.integers(0, 4, 40)
-    count = np.where(degree == 0, RNG.integers(0, 6, 40), RNG.integers(0, 70, 40))
+    count = np.where(degree == 0, RNG.integers(1, 5, 40), RNG.integers(1, 70, 40))
     pixels, owner = poly.poly_span(nodes, degree, count, evaluator=evaluator, form=form, node_set=node_set)
     expected = []
-    for span, j in zip(*poly.span_walk(degree, count), strict=True):
+    for span, j in zip(*poly.span_walk(count), strict=True):
         row, log2 = [], int(poly.span_log2(count[span]))
         for channel in nodes[span]:
             if degree[span] == 0:
@@ -290,7 +270,7 @@ def test_poly_span(evaluator: int, form: int, node_set: int) -> None:
             row.append(min(max(raw, 0), (1 << k.PIXEL_W) - 1))
         expected.append(row)
     assert pixels.tolist() == expected
-    assert np.array_equal(owner, poly.span_walk(degree, count)[0])
+    assert np.array_equal(owner, poly.span_walk(count)[0])
     assert {0, (1 << k.PIXEL_W) - 1} <= set(pixels.ravel().tolist())  # both ends of the clamp were met
 
 
@@ -314,7 +294,8 @@ def test_pack_spans() -> None:
         number = sum(int(word) << 32 * i for i, word in enumerate(beat))
         fields = [int(v) % (1 << k.INTENSITY_W) << k.INTENSITY_W * i for i, v in enumerate(nodes[row].ravel())]
         fields += [int(count[row]) << k.SPAN_COUNT_LSB, int(degree[row]) << k.SPAN_DEGREE_LSB]
-        assert number == sum(fields) + (int(tag[row]) << k.SPAN_TAG_LSB)
+        log2 = int(poly.span_log2(count[row]))
+        assert number == sum(fields) + (int(tag[row]) << k.SPAN_TAG_LSB) + (log2 << k.SPAN_TAG_LSB + k.TAG_W)
 
 
 def test_nothing_to_pack() -> None:

@@ -7,20 +7,19 @@ import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden.plan import node_walk
 from polyshade.golden.poly import span_log2
+from polyshade.golden.types import JOB, NODE, PLAN, whole
 
 from tb.bench import Bench, Mismatch, Source, checked, no_path
 from tb.runner import points, simulate
 
 
-@points({}, {"CREDIT_LOG2": 1}, {"PACE": 6})
+@points({}, {"CREDIT_LOG2": 1}, {"FOLD": 6})
 def test_cocotb(point):
     simulate("shade_node_walk", point)
 
 
-PLAN = ("main_i", "log2_i", "degree_i", "last_count_i", "last_log2_i", "last_degree_i")
-PAYLOAD = ("n_i", "g_i", *PLAN, "flat_i", "tag_i", "split_i")
-NODE = ("x_o", "y_o", "z_o", "slot_o", "first_o", "shared_o", "last_o", "flat_o", "tag_o")
-RECORD = ("count_o", "degree_o", "more_o")
+PAYLOAD = ("job_i", "plan_i")
+PLANNED = ("main", "log2", "degree", "last_count", "last_log2", "last_degree")
 
 
 class Nodes:
@@ -29,7 +28,7 @@ class Nodes:
     def __init__(self, bench: Bench, thrift: float = 0.0):
         self.bench, self.thrift = bench, thrift
         self.capacity = 1 << bench.parameter("CREDIT_LOG2")
-        self.spent = 0
+        self.spent, self.first = 0, 1  # first: the next node begins a record
         self.nodes: list[dict[str, int]] = []
         self.clocks: list[int] = []
         cocotb.start_soon(self._run())
@@ -42,18 +41,32 @@ class Nodes:
             await self.bench.tick()
             self.spent -= credit
             if int(dut.valid_o.value):
-                self.nodes.append({name: int(getattr(dut, name).value) for name in (*NODE, *RECORD)})
+                node = int(dut.node_o.value)
+                node = {f.name: node >> f.lsb & (1 << f.width) - 1 for f in NODE.leaves()}
+                self.spent += self.first
+                self.first = node["place.last"]
+                self.nodes.append(node)
                 self.clocks.append(self.bench.clock)
-                self.spent += self.nodes[-1]["first_o"]
             if int(dut.rst_i.value):
-                self.spent = 0
+                self.spent, self.first = 0, 1
             if self.spent > self.capacity:
                 raise Mismatch(f"a record without a credit (clock {self.bench.clock})")
 
 
 def setup(bench: Bench, thrift: float = 0.0) -> tuple[Source, Nodes]:
     """Something that sends planned spans, and something that reads nodes."""
+    if bench.parameter("FOLD") > 1:
+        cocotb.start_soon(phases(bench))
     return Source(bench, "valid_i", "ready_o", PAYLOAD), Nodes(bench, thrift)
+
+
+async def phases(bench: Bench) -> None:
+    """Count the phases, from 0 behind a reset."""
+    phase, fold = 0, bench.parameter("FOLD")
+    while True:
+        bench.dut.phase_i.value = phase
+        await bench.tick()
+        phase = 0 if int(bench.dut.rst_i.value) else (phase + 1) % fold
 
 
 def spans(bench: Bench, rows: int, longest: int = 60) -> dict[str, np.ndarray]:
@@ -79,36 +92,39 @@ def spans(bench: Bench, rows: int, longest: int = 60) -> dict[str, np.ndarray]:
     }  # fmt: skip
 
 
-def words(sent: dict[str, np.ndarray]) -> list[tuple[int, ...]]:
-    """The bits of every span at the ports."""
-    mask = (1 << k.STEP_W) - 1
-    vectors = [
-        [sum((component & mask) << k.STEP_W * c for c, component in enumerate(row)) for row in sent[name].tolist()]
-        for name in "ng"
-    ]
-    split = (sent["main"] != 0).tolist()
-    return list(zip(*vectors, *(sent[name].tolist() for name in list(sent)[2:]), split, strict=True))
+def words(sent: dict[str, np.ndarray]) -> list[tuple[int, int]]:
+    """The bits of every span at the ports: job and plan."""
+    vectors = {
+        f"{name}.{axis}": sent[name[0].replace("i", "g")][:, i]
+        for name in ("normal", "increment") for i, axis in enumerate("xyz")
+    }  # fmt: skip
+    jobs = whole(JOB, vectors | {name: sent[name] for name in ("flat", "tag")})
+    plans = whole(PLAN, {name: sent[name] for name in PLANNED} | {"split": sent["main"] != 0})
+    return list(zip(jobs, plans, strict=True))
 
 
 async def compare(bench: Bench, sent: dict[str, np.ndarray], nodes: Nodes) -> None:
     """Wait for all nodes of the spans and compare them; no more may come."""
     walked = node_walk(*(sent[name] for name in list(sent)[:8]))
     total, record = len(walked.slot), walked.record
-    patience = 20 * total * bench.parameter("PACE") + 100
+    patience = 20 * total * bench.parameter("FOLD") + 100
     await bench.until(lambda: len(nodes.nodes) >= total, patience, f"{total} nodes")
     await bench.tick(10)
     bench.equal(len(nodes.nodes), total, "number of nodes")
     last = np.append(np.diff(record), 1) != 0
     span = walked.span[record]
-    expected = dict(zip(("x_o", "y_o", "z_o"), (walked.vector & (1 << k.INTENSITY_W) - 1).T, strict=True)) | {
-        "slot_o": walked.slot, "first_o": np.append(1, last[:-1]), "shared_o": walked.shared, "last_o": last,
-        "flat_o": sent["flat"][span], "tag_o": sent["tag"][span],
-        "count_o": walked.count[record], "degree_o": walked.degree[record], "more_o": walked.more[record],
+    head = {
+        "count": walked.count[record], "more": walked.more[record], "degree": walked.degree[record],
+        "tag": sent["tag"][span], "log2": walked.log2[record],
     }  # fmt: skip
+    place = {"slot": walked.slot, "shared": walked.shared, "last": last}
+    expected = {f"normal.{axis}": walked.vector[:, i] & (1 << k.INTENSITY_W) - 1 for i, axis in enumerate("xyz")}
+    expected |= {"flat": sent["flat"][span]} | {f"place.{name}": value for name, value in place.items()}
+    expected |= {f"place.head.{name}": value for name, value in head.items()}
     for index, node in enumerate(nodes.nodes):
         what = f"node {index} (span {span[index]}, record {record[index]})"
         for name, values in expected.items():
-            bench.equal(node[name], int(values[index]), f"{what}: {name}", bench.bits(name))
+            bench.equal(node[name], int(values[index]), f"{what}: {name}")
 
 
 @checked(gap=[0.0, 0.5], thrift=[0.0, 0.7])
@@ -121,8 +137,23 @@ async def walk(bench: Bench, gap: float, thrift: float) -> None:
 
 
 @checked()
+async def limits(bench: Bench) -> None:
+    """Normals at the ends of S2.29 and around the last one that is not saturated."""
+    most, half = 1 << k.STEP_W - 1, 1 << k.STEP_F - k.NODE_F - 1
+    ends = [most - 1, most - half, most - half - 1, most - 2 * half, -most, -most + half, -most + half - 1, 0]
+    sent = spans(bench, 8 * len(ends))
+    sent["main"][:], sent["last_degree"][:], sent["last_count"][:] = 0, k.DEGREE_DIRECT, 1
+    sent["last_log2"] = span_log2(sent["last_count"])
+    for axis in range(3):
+        sent["n"][:, axis] = bench.rng.permutation(np.repeat(ends, 8))
+    source, nodes = setup(bench)
+    await source.send(words(sent))
+    await compare(bench, sent, nodes)
+
+
+@checked()
 async def timing(bench: Bench) -> None:
-    """A node in PACE clocks, no bubble between records nor between spans, LATENCY_NODE_WALK after the span."""
+    """A node in FOLD clocks, no bubble between records nor between spans, LATENCY_NODE_WALK after the span."""
     if bench.parameter("CREDIT_LOG2") < 3:  # records of one node take a credit a clock
         bench.checks += 1
         return
@@ -131,7 +162,7 @@ async def timing(bench: Bench) -> None:
     source, nodes = setup(bench)
     await source.send(words(sent))
     await compare(bench, sent, nodes)
-    pace, wait = bench.parameter("PACE"), nodes.clocks[0] - source.clocks[0] - k.LATENCY_NODE_WALK
+    pace, wait = bench.parameter("FOLD"), nodes.clocks[0] - source.clocks[0] - k.LATENCY_NODE_WALK
     bench.equal(0 <= wait < pace, True, "clocks from a span to its first node, but for those to its turn")
     taken = pace * (len(nodes.clocks) - 1)
     bench.equal(nodes.clocks[-1] - nodes.clocks[0], taken, "clocks from the first node to the last")
@@ -144,8 +175,8 @@ async def credits(bench: Bench) -> None:
     sent = spans(bench, 2 * capacity)
     source, nodes = setup(bench, thrift=1.0)
     cocotb.start_soon(source.send(words(sent)))
-    await bench.tick(8 * capacity * bench.parameter("PACE") + 20)
-    bench.equal(sum(node["first_o"] for node in nodes.nodes), capacity, "records without a credit back")
+    await bench.tick(8 * capacity * bench.parameter("FOLD") + 20)
+    bench.equal(nodes.spent, capacity, "records without a credit back")
     nodes.thrift = 0.0
     await compare(bench, sent, nodes)
 
@@ -157,7 +188,7 @@ async def reset(bench: Bench) -> None:
     sent = spans(bench, 10)
     sent["main"][0] = 9
     task = cocotb.start_soon(source.send(words(sent)))
-    await bench.tick(8 + bench.parameter("PACE"))
+    await bench.tick(8 + bench.parameter("FOLD"))
     task.cancel()
     source.withdraw()
     await bench.reset()
@@ -172,10 +203,9 @@ async def reset(bench: Bench) -> None:
 
 @checked()
 async def paths(bench: Bench) -> None:
-    """No node follows an input within a clock; ready_o may follow split_i, which stands behind a FIFO's register."""
+    """No node follows an input within a clock; ready_o may follow plan_i, which stands behind a FIFO's register."""
     source, nodes = setup(bench, thrift=0.5)
-    inputs = ["n_i", "g_i", "tag_i", "flat_i", "main_i", "last_count_i", "credit_i"]
-    cocotb.start_soon(no_path(bench, inputs, ["ready_o", "valid_o", *NODE, *RECORD]))
+    cocotb.start_soon(no_path(bench, ["job_i", "credit_i"], ["ready_o", "valid_o", "node_o"]))
     sent = spans(bench, 40)
     await source.send(words(sent), 0.3)
     await compare(bench, sent, nodes)

@@ -5,6 +5,7 @@ import random
 import cocotb
 import numpy as np
 from polyshade.golden import contract as k
+from polyshade.golden import types
 from polyshade.golden.poly import span_log2, span_walk
 
 from tb.bench import Bench, Mismatch, Source, checked, no_path
@@ -27,7 +28,7 @@ class Tokens:
     which one was. A token for which there was no credit raises Mismatch.
     """
 
-    PORTS = ("first_o", "last_o", "degree_o", "t_o", "log2_o", "tag_o", "nodes_o")
+    FIELDS = tuple(types.TOKEN.leaves())
 
     def __init__(self, bench: Bench, thrift: float = 0.0):
         self.bench, self.thrift = bench, thrift
@@ -53,7 +54,8 @@ class Tokens:
                 self.spent -= 1
                 self.given.append(self.bench.clock)
             if int(dut.valid_o.value):
-                self.tokens.append({name: int(getattr(dut, name).value) for name in self.PORTS})
+                token = int(dut.token_o.value)
+                self.tokens.append({f.name: token >> f.lsb & (1 << f.width) - 1 for f in self.FIELDS})
                 self.clocks.append(self.bench.clock)
                 self.spent += 1
             if int(dut.rst_i.value):
@@ -64,52 +66,41 @@ class Tokens:
 
 def setup(bench: Bench, thrift: float = 0.0) -> tuple[Source, Tokens]:
     """Something that sends spans, and something that reads tokens."""
-    source = Source(bench, "s_axis_span_tvalid", "s_axis_span_tready", ["s_axis_span_tdata"])
-    return source, Tokens(bench, thrift)
-
-
-def node(packed: int, channel: int, index: int) -> int:
-    """The bits of a node."""
-    return packed >> k.INTENSITY_W * (k.NODE_COUNT * channel + index) & (1 << k.INTENSITY_W) - 1
+    return Source(bench, "valid_i", "ready_o", ["record_i"]), Tokens(bench, thrift)
 
 
 async def compare(bench: Bench, sent: Spans, tokens: Tokens) -> None:
-    """Wait for all tokens of the spans and compare them; no more may come. Compare the errors as well."""
-    log2_max = bench.parameter("LOG2_MAX")
-    of, j = span_walk(sent.degree, sent.count, log2_max=log2_max)
+    """Wait for all tokens of the spans and compare them; no more may come."""
+    of, j = span_walk(sent.count)
     await bench.until(lambda: len(tokens.tokens) >= of.size, 20 * of.size + 200, f"{of.size} tokens")
     await bench.tick(20)
     bench.equal(len(tokens.tokens), of.size, "number of tokens")
     direct = sent.degree[of] == k.DEGREE_DIRECT
     log2 = span_log2(sent.count)[of]
     expected = {
-        "first_o": (j == 0) | direct,
-        "last_o": (j == sent.count[of] - 1) & ~sent.more[of],
-        "degree_o": sent.degree[of],
-        "t_o": j << k.T_F - log2,
-        "log2_o": log2,
-        "tag_o": sent.tag[of],
+        "first": (j == 0) | direct,
+        "last": (j == sent.count[of] - 1) & ~sent.more[of],
+        "degree": sent.degree[of],
+        "t": j << k.T_F - log2,
+        "log2": log2,
+        "tag": sent.tag[of],
     }
     texts = sent.texts()
     for index, token in enumerate(tokens.tokens):
         what = f"pixel {j[index]} of {texts[of[index]]}"
         for name, values in expected.items():
-            bench.equal(token[name], int(values[index]), f"{what}: {name}", bench.bits(name))
-        for channel in range(k.CHANNELS):
+            bench.equal(token[name], int(values[index]), f"{what}: {name}")
+        for channel, kind in enumerate(("diffuse", "specular")):
             for place in range(1 if direct[index] else k.NODE_COUNT):  # a direct pixel has one node, in first place
                 wanted = int(sent.nodes[of[index], channel, j[index] if direct[index] else place])
                 wanted &= (1 << k.INTENSITY_W) - 1
-                actual = node(token["nodes_o"], channel, place)
-                bench.equal(actual, wanted, f"{what}: node {place + 1} of channel {channel}", k.INTENSITY_W)
-    errors = sent.errors(bench)
-    bench.equal(int(bench.dut.error_o.value), int(np.bitwise_or.reduce(errors)), "error_o", k.ERROR_W)
-    bench.equal(int(bench.dut.error_count_o.value), np.count_nonzero(errors), "error_count_o")
+                bench.equal(token[f"{kind}.n{place}"], wanted, f"{what}: node {place} of {kind} light", k.INTENSITY_W)
 
 
 @checked(gap=[0.0, 0.5], thrift=[0.0, 0.7])
 async def walk(bench: Bench, gap: float, thrift: float) -> None:
-    """Spans of all degrees and lengths, faulty ones among them; credits that come back at once or late."""
-    sent = mixed_spans(bench, 200, faults=0.2)
+    """Spans of all degrees and lengths; credits that come back at once or late."""
+    sent = mixed_spans(bench, 200)
     source, tokens = setup(bench, thrift)
     await source.send(sent.beats(), gap)
     await compare(bench, sent, tokens)
@@ -117,16 +108,16 @@ async def walk(bench: Bench, gap: float, thrift: float) -> None:
 
 @checked(gap=[0.0, 0.3])
 async def timing(bench: Bench, gap: float) -> None:
-    """With credits, a token a clock and no bubble, not between spans of any length; a refused span costs one clock."""
-    sent = mixed_spans(bench, 200, faults=0.2)
+    """With credits, a token a clock and no bubble, not between spans of any length."""
+    sent = mixed_spans(bench, 200)
     source, tokens = setup(bench)
     await source.send(sent.beats(), gap)
     await compare(bench, sent, tokens)
-    of, j = span_walk(sent.degree, sent.count, log2_max=bench.parameter("LOG2_MAX"))
+    of, j = span_walk(sent.count)
     for index, clock in enumerate(tokens.clocks):
         bench.equal(clock - source.clocks[of[index]], LATENCY + int(j[index]), f"latency of token {index}")
     if not gap:
-        span = int(sent.clocks(bench)[:-1].sum())
+        span = int(sent.count[:-1].sum())
         bench.equal(source.clocks[-1] - source.clocks[0], span, "clocks from the first span to the last")
 
 
@@ -148,7 +139,7 @@ async def starved(bench: Bench) -> None:
     await source.send(spans(bench, k.DEGREE_CUBIC, [tokens.capacity + 20]).beats())
     await bench.tick(2 * tokens.capacity + 10)
     bench.equal(len(tokens.tokens), tokens.capacity, "tokens without a credit given back")
-    bench.equal(int(bench.dut.s_axis_span_tready.value), 0, "s_axis_span_tready")
+    bench.equal(int(bench.dut.ready_o.value), 0, "ready_o")
     tokens.thrift = 0.8
     await bench.until(lambda: len(tokens.tokens) == tokens.capacity + 20, 1000, "all tokens")
     for given, clock in zip(tokens.given[:20], tokens.clocks[tokens.capacity :], strict=True):
@@ -156,46 +147,18 @@ async def starved(bench: Bench) -> None:
 
 
 @checked()
-async def errors(bench: Bench) -> None:
-    """Every fault sets its own bit, which stays; the counter counts it; the span behind is unharmed."""
-    source, tokens = setup(bench)
-    limit = 1 << bench.parameter("LOG2_MAX")
-    faults = [(degree, count) for degree in range(4) for count in (0, limit + 1, (1 << k.COUNT_W) - 1)]
-    faults += [(k.DEGREE_DIRECT, count) for count in (5, 8, limit)]
-    for degree, count in faults:
-        sent = spans(bench, [degree, k.DEGREE_LINEAR], [count, 3])
-        tokens.forget()
-        await bench.reset()
-        await source.send(sent.beats())
-        await compare(bench, sent, tokens)
-
-
-@checked()
-async def counter(bench: Bench) -> None:
-    """The counter of refused spans stops at its largest value."""
-    dut, largest = bench.dut, (1 << 16) - 1
-    dut.s_axis_span_tdata.value = spans(bench, k.DEGREE_CUBIC, [0]).beats()[0][0]
-    dut.s_axis_span_tvalid.value = 1
-    await bench.tick()
-    for clocks in (100, largest - 101, 1, 1, 1, 50):
-        before = int(dut.error_count_o.value)
-        await bench.tick(clocks)
-        bench.equal(int(dut.error_count_o.value), min(before + clocks, largest), "error_count_o")
-
-
-@checked()
 async def reset(bench: Bench) -> None:
-    """A reset in the middle of a span: no token follows, errors are forgotten, all credits are there again."""
+    """A reset in the middle of a span: no token follows, all credits are there again."""
     source, tokens = setup(bench, thrift=0.5)
     for _ in range(20):
-        sending = cocotb.start_soon(source.send(mixed_spans(bench, 50, faults=0.3).beats()))
+        sending = cocotb.start_soon(source.send(mixed_spans(bench, 50).beats()))
         await bench.tick(random.randrange(5, 60))
         sending.cancel()
         source.withdraw()
         await bench.reset(clocks=1)
         await bench.tick()
         bench.equal(int(bench.dut.valid_o.value), 0, "valid_o")
-        bench.equal(int(bench.dut.s_axis_span_tready.value), 1, "s_axis_span_tready")
+        bench.equal(int(bench.dut.ready_o.value), 1, "ready_o")
         tokens.forget()
         sent = mixed_spans(bench, 5)
         await source.send(sent.beats())
@@ -205,10 +168,10 @@ async def reset(bench: Bench) -> None:
 @checked()
 async def registered(bench: Bench) -> None:
     """No input reaches an output in the same clock."""
-    inputs = ["s_axis_span_tvalid", "s_axis_span_tdata", "credit_i"]
-    outputs = ["s_axis_span_tready", "valid_o", "error_o", "error_count_o", *Tokens.PORTS]
+    inputs = ["valid_i", "record_i", "credit_i"]
+    outputs = ["ready_o", "valid_o", "token_o"]
     cocotb.start_soon(no_path(bench, inputs, outputs))
-    sent = mixed_spans(bench, 40, faults=0.2)
+    sent = mixed_spans(bench, 40)
     source, tokens = setup(bench, thrift=0.3)
     await source.send(sent.beats(), 0.3)
     await compare(bench, sent, tokens)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from polyshade.golden import contract as k
-from polyshade.golden.poly import pack_spans, span_errors
+from polyshade.golden.poly import pack_spans
 from polyshade.golden.types import RECORD
 
 from tb.bench import Bench
@@ -46,14 +46,6 @@ class Spans:
         shape = zip(self.degree, self.count, nodes, strict=True)
         return [f"span {i} (degree {d}, {n} pixels, nodes {text})" for i, (d, n, text) in enumerate(shape)]
 
-    def errors(self, bench: Bench) -> np.ndarray:
-        """The error bits of every span (S,)."""
-        return span_errors(self.degree, self.count, log2_max=bench.parameter("LOG2_MAX"))
-
-    def clocks(self, bench: Bench) -> np.ndarray:
-        """How long every span occupies the walk (S,): a clock a pixel, or one if it is refused."""
-        return np.where(self.errors(bench) == 0, self.count, 1)
-
 
 def _beats(words: np.ndarray) -> list[int]:
     return [int.from_bytes(row.astype("<u4").tobytes(), "little") for row in words]
@@ -77,14 +69,9 @@ def spans(bench: Bench, degree: ArrayLike, count: ArrayLike) -> Spans:
     return Spans(chosen, degree, count, bench.rng.integers(0, 1 << k.TAG_W, count.size), more)
 
 
-def mixed_spans(bench: Bench, rows: int, faults: float = 0.0) -> Spans:
-    """Spans of all degrees and of 1 to 20 pixels, half of them of 1 to 4; ``faults``: share of those to be refused."""
+def mixed_spans(bench: Bench, rows: int) -> Spans:
+    """Spans of all degrees and of 1 to 20 pixels, half of them of 1 to 4."""
     rng = bench.rng
     degree = rng.integers(0, 4, rows)
     short = (rng.random(rows) < 0.5) | (degree == k.DEGREE_DIRECT)
-    count = np.where(short, rng.integers(1, k.DIRECT_MAX + 1, rows), rng.integers(1, 21, rows))
-    limit = 1 << bench.parameter("LOG2_MAX")
-    long = rng.integers(limit + 1, 1 << k.COUNT_W, rows)
-    wrong = np.where(degree == k.DEGREE_DIRECT, rng.integers(k.DIRECT_MAX + 1, limit, rows), limit + 1)
-    refused = np.choose(rng.integers(0, 3, rows), [np.zeros(rows, int), long, wrong])
-    return spans(bench, degree, np.where(rng.random(rows) < faults, refused, count))
+    return spans(bench, degree, np.where(short, rng.integers(1, k.DIRECT_MAX + 1, rows), rng.integers(1, 21, rows)))

@@ -141,6 +141,23 @@ async def reset(bench: Bench) -> None:
 
 
 @checked()
+async def reset_while_taking(bench: Bench) -> None:
+    """A reset of one clock while words are written and taken: none comes behind it, nor the credit of the last one."""
+    writer, sink = setup(bench, 0.0)
+    for clocks in range(1, 12):
+        writing = cocotb.start_soon(writer.write(some_words(bench, 30)))
+        await bench.tick(clocks)
+        writing.cancel()
+        bench.dut.valid_i.value = 0
+        await bench.reset(clocks=1)
+        await bench.tick(4)  # the writer looks at taken_o
+        sink.forget()
+    words = some_words(bench, 100)
+    await writer.write(words)
+    await read_back(bench, sink, words)
+
+
+@checked()
 async def registered(bench: Bench) -> None:
     """No input reaches an output in the same clock."""
     cocotb.start_soon(no_path(bench, ["valid_i", "data_i", "ready_i"], ["valid_o", "data_o", "taken_o"]))

@@ -1,4 +1,4 @@
-"""shade_walk: items in, so many steps out, a credit each, no bubble, faulty items dropped and counted."""
+"""shade_walk: items in, so many steps out, a credit each, no bubble."""
 
 import random
 
@@ -9,7 +9,7 @@ from tb.bench import Bench, Mismatch, Source, checked, no_path
 from tb.runner import points, simulate
 
 
-@points({}, {"COUNT_W": 4, "ERROR_W": 1, "CREDIT_LOG2": 1})
+@points({}, {"COUNT_W": 4, "CREDIT_LOG2": 1})
 def test_cocotb(point):
     simulate("shade_walk", point)
 
@@ -44,35 +44,30 @@ class Steps:
 
 def setup(bench: Bench, thrift: float = 0.0) -> tuple[Source, Steps]:
     """Something that sends items, and something that reads steps."""
-    return Source(bench, "valid_i", "ready_o", ["count_i", "error_i"]), Steps(bench, thrift)
+    return Source(bench, "valid_i", "ready_o", ["count_i"]), Steps(bench, thrift)
 
 
-def items(bench: Bench, rows: int, faults: float) -> list[tuple[int, int]]:
-    """Counts, most of them small, and faults; a count of 0 is always one."""
+def items(bench: Bench, rows: int) -> list[tuple[int]]:
+    """Counts, most of them small."""
     counts = np.minimum(bench.rng.geometric(0.3, rows), (1 << bench.bits("count_i")) - 1)
-    bad = np.where(bench.rng.random(rows) < faults, bench.rng.integers(1, 1 << bench.bits("error_i"), rows), 0)
-    counts[(bad > 0) & (bench.rng.random(rows) < 0.5)] = 0
-    return list(zip(counts.tolist(), bad.tolist(), strict=True))
+    return [(count,) for count in counts.tolist()]
 
 
-async def compare(bench: Bench, sent: list[tuple[int, int]], steps: Steps) -> None:
-    """Wait for all steps of the items; no more may come. Compare the errors as well."""
-    expected = [(int(i == 0), int(i == n - 1)) for n, bad in sent if not bad for i in range(n)]
+async def compare(bench: Bench, sent: list[tuple[int]], steps: Steps) -> None:
+    """Wait for all steps of the items; no more may come."""
+    expected = [(int(i == 0), int(i == n - 1)) for (n,) in sent for i in range(n)]
     await bench.until(lambda: len(steps.steps) >= len(expected), 20 * len(expected) + 100, f"{len(expected)} steps")
     await bench.tick(10)
     bench.equal(len(steps.steps), len(expected), "number of steps")
     for index, (actual, wanted) in enumerate(zip(steps.steps, expected, strict=True)):
         bench.equal(actual[0], wanted[0], f"step {index}: first_o")
         bench.equal(actual[1], wanted[1], f"step {index}: last_o")
-    errors = [bad for _, bad in sent if bad]
-    bench.equal(int(bench.dut.error_o.value), int(np.bitwise_or.reduce(errors, initial=0)), "error_o")
-    bench.equal(int(bench.dut.error_count_o.value), len(errors), "error_count_o")
 
 
 @checked(gap=[0.0, 0.5], thrift=[0.0, 0.7])
 async def walk(bench: Bench, gap: float, thrift: float) -> None:
-    """Items of all lengths, faulty ones among them; credits that come back at once or late."""
-    sent = items(bench, 200, faults=0.2)
+    """Items of all lengths; credits that come back at once or late."""
+    sent = items(bench, 200)
     source, steps = setup(bench, thrift)
     await source.send(sent, gap)
     await compare(bench, sent, steps)
@@ -80,16 +75,16 @@ async def walk(bench: Bench, gap: float, thrift: float) -> None:
 
 @checked()
 async def timing(bench: Bench) -> None:
-    """With credits, a step a clock and no bubble between items; a faulty item costs one clock."""
+    """With credits, a step a clock and no bubble between items."""
     if bench.parameter("CREDIT_LOG2") < 2:  # a credit needs two clocks to come back
         bench.checks += 1
         return
-    sent = [(1, 0), (1, 0), (2, 0), (1, 0), (3, 0), (0, 1), (1, 0), (5, 1), (2, 0)]
+    sent = [(1,), (1,), (2,), (1,), (3,), (1,), (2,)]
     source, steps = setup(bench)
     await source.send(sent)
     await compare(bench, sent, steps)
     first = source.clocks[0]
-    wanted = [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 13]
+    wanted = list(range(1, 12))
     bench.equal([clock - first for clock in steps.clocks] == wanted, True, f"clocks of the steps are {wanted}")
 
 
@@ -98,7 +93,7 @@ async def credits(bench: Bench) -> None:
     """As many steps as there are credits, and one more for each that comes back."""
     capacity = 1 << bench.parameter("CREDIT_LOG2")
     source, steps = setup(bench, thrift=1.0)
-    cocotb.start_soon(source.send([(3, 0)] * capacity))
+    cocotb.start_soon(source.send([(3,)] * capacity))
     await bench.tick(3 * capacity + 10)
     bench.equal(len(steps.steps), capacity, "steps without a credit back")
     steps.thrift = 0.0
@@ -111,16 +106,16 @@ async def credits(bench: Bench) -> None:
 
 @checked()
 async def reset(bench: Bench) -> None:
-    """Reset in the middle of an item: nothing of it remains, the credits are back, the errors are gone."""
+    """Reset in the middle of an item: nothing of it remains, the credits are back."""
     source, steps = setup(bench, thrift=1.0)
-    cocotb.start_soon(source.send([(1, 1), ((1 << bench.bits("count_i")) - 1, 0)]))
+    cocotb.start_soon(source.send([(1,), ((1 << bench.bits("count_i")) - 1,)]))
     await bench.tick(8)
     await bench.reset()
     steps.steps.clear()
     await bench.tick(10)
     bench.equal(len(steps.steps), 0, "steps after reset")
     steps.thrift = 0.0
-    sent = items(bench, 20, faults=0.3)
+    sent = items(bench, 20)
     await source.send(sent)
     await compare(bench, sent, steps)
 
@@ -129,7 +124,7 @@ async def reset(bench: Bench) -> None:
 async def paths(bench: Bench) -> None:
     """No output that a neighbour waits for follows an input within a clock."""
     source, steps = setup(bench, thrift=0.5)
-    cocotb.start_soon(no_path(bench, ["count_i", "error_i", "credit_i"], ["ready_o", "issue_o", "first_o", "last_o"]))
-    sent = items(bench, 50, faults=0.2)
+    cocotb.start_soon(no_path(bench, ["count_i", "credit_i"], ["ready_o", "issue_o", "first_o", "last_o"]))
+    sent = items(bench, 50)
     await source.send(sent, 0.3)
     await compare(bench, sent, steps)

@@ -1,0 +1,87 @@
+// shade_line: spans in, unit normals at the nodes of their records out: the line form's producer of points.
+//
+//   span ─┬─▶ shade_planner ─▶ plans ─┐
+//         └─▶ shade_fifo ─── jobs ────┴▶ shade_node_walk ─┬─▶ shade_unit ─▶ normal_o
+//                                                         └─▶ place_o
+//
+//   span_i       1 .. 4096 pixels; its flat bit counts with Lambert's light alone (P2)
+//   room_o       there is a place for a span; ready_o: it is taken in this clock
+//   draw_i       settings; must not change while a span is inside
+//   place_o      a node's place in its record, with place_valid_o, LATENCY_UNIT(_FOLDED) clocks before its normal
+//   normal_o     S1.16, with valid_o; zero_o, short_o: see shade_unit
+//   credit_i     gives one credit back; 2^RECORD_FIFO_LOG2 are there after reset, a record costs one
+//
+// FOLD = 6: planner and unit with one multiplier each for what takes three or more otherwise: a span and a node in six
+// clocks; spans are taken in phase 0 of 6. No path leads from an input to an output, but from phase_i to ready_o.
+// Latency from a span to its first normal: LATENCY_LINE = 55 clocks, FOLD = 6: LATENCY_LINE_FOLDED = 72. One span, one node a
+// clock. Source: P1, P4. Example: 5 pixels, degree 3: the normals of pixels 0, 1, 2, 4 in slots 0 to 3 of one record.
+module shade_line #(
+  parameter int FOLD = 1
+) (
+  input  logic              clk_i,
+  input  logic              rst_i,
+  input  logic [       2:0] phase_i,
+  input  shade_pkg::draw_t  draw_i,
+  input  logic              valid_i,
+  output logic              ready_o,
+  output logic              room_o,
+  input  shade_pkg::span_t  span_i,
+  input  logic              credit_i,
+  output logic              place_valid_o,
+  output shade_pkg::place_t place_o,
+  output logic              valid_o,
+  output shade_pkg::vec_t   normal_o,
+  output logic              zero_o,
+  output logic              short_o
+);
+  if (FOLD != 1 && FOLD != 6) begin : g_check
+    $error("shade_line: FOLD must be 1 or 6");
+  end
+
+  localparam int LOG2 = shade_pkg::SPAN_FIFO_LOG2;
+
+  // ---- spans, beside their plans: a plan comes later than its span -------------------------------------------------
+  logic take, taken, job_valid, planned, plan_valid, walk_ready, walk;
+  shade_pkg::job_t job, job_next;
+  shade_pkg::plan_t plan, plan_next;
+  assign ready_o       = room_o && (FOLD == 1 || phase_i == '0);
+  assign take          = valid_i && ready_o;
+  assign walk          = walk_ready && plan_valid;
+  assign job.normal    = span_i.normal;
+  assign job.increment = span_i.increment;
+  assign job.flat      = span_i.flat && draw_i.material.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_LAMBERT);
+  assign job.tag       = span_i.tag;
+  shade_credit #(.LOG2(LOG2)) u_room (.clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(room_o), .soon_o());
+  shade_fifo #(.WIDTH($bits(job)), .LOG2(LOG2), .BLOCK(1)) u_jobs (
+    .clk_i, .rst_i, .valid_i(take), .data_i(job), .valid_o(job_valid), .ready_i(walk), .data_o(job_next),
+    .taken_o(taken)
+  );
+
+  localparam int LATENCY = FOLD == 1 ? shade_pkg::LATENCY_PLANNER : shade_pkg::LATENCY_PLANNER_FOLDED;
+  shade_planner #(.FOLD(FOLD)) u_planner (
+    .clk_i, .rst_i, .phase_i, .increment_i(span_i.increment), .count_i(span_i.count), .flat_i(job.flat),
+    .planner_i(draw_i.planner), .fixed_degree_i(draw_i.control.fixed_degree), .plan_o(plan)
+  );
+  shade_valid #(.DEPTH(LATENCY)) u_planned (.clk_i, .rst_i, .valid_i(take), .valid_o(planned));
+  shade_fifo #(.WIDTH($bits(plan)), .LOG2(LOG2), .BLOCK(1)) u_plans (
+    .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(walk), .data_o(plan_next),
+    .taken_o()
+  );
+  shade_assert u_job (.clk_i, .rst_i, .holds_i(!plan_valid || job_valid));
+
+  // ---- nodes -----------------------------------------------------------------------------------------------------
+  shade_pkg::node_t node;
+  shade_node_walk #(.FOLD(FOLD)) u_walk (
+    .clk_i, .rst_i, .phase_i, .valid_i(plan_valid), .ready_o(walk_ready), .job_i(job_next), .plan_i(plan_next),
+    .credit_i, .valid_o(place_valid_o), .node_o(node)
+  );
+  assign place_o = node.place;
+  shade_unit #(.FOLD(FOLD)) u_unit (
+    .clk_i, .rst_i, .valid_i(place_valid_o), .ready_o(), .bypass_i(node.flat), .x_i(node.normal.x),
+    .y_i(node.normal.y), .z_i(node.normal.z), .valid_o, .x_o(normal_o.x), .y_o(normal_o.y), .z_o(normal_o.z), .zero_o,
+    .short_o
+  );
+
+  logic unused_bits;
+  assign unused_bits = &{1'b0, span_i, draw_i, job_valid};
+endmodule

@@ -1,0 +1,79 @@
+// shade_stretch: a planned span in, its one or two stretches out: records of one kind, with the step from node to node.
+//
+//   stretch 0   main records of 2^log2 pixels, if plan_i.split
+//   stretch 1   the last record
+//   step        increment 2^log2, 2^(log2 - 1), 2^(log2 - 2) of degree 1, 2, 3: a quarter, a half or all of a record;
+//               of degree 0 (direct) the increment itself
+//
+//   job_i, plan_i      a span and what shade_planner made of it; ready_o hangs on plan_i.split, so that must come early
+//   stretch_o          shared: it starts at the last node of the stretch before
+//   valid_i, ready_o   a span is taken when both are 1, with its last stretch; valid_o, ready_i likewise
+//
+// Latency 2 clocks, one stretch a clock. Exact; steps wrap at 32 bits.
+// Example: main = 2, log2 = 4, degree 3; last_count = 9, last_log2 = 3, last_degree 1 -> 2 records of 16 pixels, step 4 g;
+// 1 record of 9 pixels, step 8 g, shared. Source: P1, section IV (nodes).
+module shade_stretch (
+  input  logic                clk_i,
+  input  logic                rst_i,
+  input  logic                valid_i,
+  output logic                ready_o,
+  input  shade_pkg::job_t     job_i,
+  input  shade_pkg::plan_t    plan_i,
+  output logic                valid_o,
+  input  logic                ready_i,
+  output shade_pkg::stretch_t stretch_o
+);
+  localparam int COUNT_W = shade_pkg::COUNT_W;
+  localparam int LOG2_W = shade_pkg::LOG2_W;
+  localparam logic [COUNT_W-1:0] ONE = COUNT_W'(1);
+
+  // ---- which one it is, and how far its nodes are apart --------------------------------------------------------------
+  logic main, main_done_q, move, take, chosen_valid_q;
+  logic [LOG2_W-1:0] step_log2, step_log2_q;
+  shade_pkg::stretch_t chosen, chosen_q;
+  assign main = plan_i.split && !main_done_q;
+  assign chosen.normal  = job_i.normal;
+  assign chosen.step    = job_i.increment;
+  assign chosen.tag     = job_i.tag;
+  assign chosen.flat    = job_i.flat;
+  assign chosen.degree  = main ? plan_i.degree : plan_i.last_degree;
+  assign chosen.log2    = main ? plan_i.log2 : plan_i.last_log2;
+  assign chosen.count   = main ? ONE << plan_i.log2 : plan_i.last_count;
+  assign chosen.records = main ? plan_i.main : ONE;
+  assign chosen.single  = !main || plan_i.main == ONE;
+  assign chosen.more    = main;
+  assign chosen.shared  = main_done_q && plan_i.degree != '0;
+  assign chosen.fresh   = !main_done_q;
+  always_comb begin
+    case (chosen.degree)
+      2'd1:    step_log2 = chosen.log2;
+      2'd2:    step_log2 = chosen.log2 - LOG2_W'(1);
+      2'd3:    step_log2 = chosen.log2 - LOG2_W'(2);
+      default: step_log2 = '0;
+    endcase
+  end
+  assign move    = chosen_valid_q && (!valid_o || ready_i);
+  assign take    = valid_i && (!chosen_valid_q || move);
+  assign ready_o = !main && (!chosen_valid_q || move);
+
+  always_ff @(posedge clk_i) begin
+    if (take) begin
+      chosen_q    <= chosen;
+      step_log2_q <= step_log2;
+      main_done_q <= main;
+    end
+    if (move) begin
+      stretch_o        <= chosen_q;
+      stretch_o.step.x <= chosen_q.step.x << step_log2_q;
+      stretch_o.step.y <= chosen_q.step.y << step_log2_q;
+      stretch_o.step.z <= chosen_q.step.z << step_log2_q;
+    end
+
+    if (take) chosen_valid_q <= 1'b1;
+    else if (move) chosen_valid_q <= 1'b0;
+    if (move) valid_o <= 1'b1;
+    else if (ready_i) valid_o <= 1'b0;
+    if (rst_i) {main_done_q, chosen_valid_q, valid_o} <= 3'b000;
+  end
+  shade_stable #(.WIDTH($bits(stretch_o))) u_stable (.clk_i, .rst_i, .valid_i(valid_o), .ready_i, .data_i(stretch_o));
+endmodule

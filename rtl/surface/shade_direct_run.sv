@@ -20,11 +20,10 @@ module shade_direct_run #(
   output logic      [shade_pkg::TAG_W-1:0] tag_o
 );
   localparam int P_W = shade_pkg::DIRECT_P_W;
-  logic load, first, error;
-  logic [15:0] error_count;
-  shade_walk #(.ERROR_W(1), .CREDIT_LOG2(FIFO_LOG2)) u_walk (
-    .clk_i, .rst_i, .valid_i(valid_i), .ready_o(ready_o), .count_i(start_i.count), .error_i(1'b0), .credit_i,
-    .load_o(load), .issue_o(valid_o), .first_o(first), .last_o, .error_o(error), .error_count_o(error_count)
+  logic load, first;
+  shade_walk #(.CREDIT_LOG2(FIFO_LOG2)) u_walk (
+    .clk_i, .rst_i, .valid_i(valid_i), .ready_o(ready_o), .count_i(start_i.count), .credit_i,
+    .load_o(load), .issue_o(valid_o), .first_o(first), .last_o
   );
 
   shade_pkg::start_t at_q;
@@ -41,5 +40,5 @@ module shade_direct_run #(
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, first, error, error_count, at_q};
+  assign unused_bits = &{1'b0, first, at_q};
 endmodule

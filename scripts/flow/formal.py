@@ -85,8 +85,12 @@ LIMITS = ("shade_saturate", "shade_limit", "shade_clamp")
 ALL = [
     *(Proof("fifo", ("shade_fifo",), {"LOG2": log2, "BLOCK": block}) for log2 in (1, 2) for block in (0, 1)),
     *(Proof("fifo", ("shade_fifo",), {"LOG2": 3, "BLOCK": block}, quick=False) for block in (0, 1)),
+    Proof("credit", ("shade_credit",)),
     Proof("walk", ("shade_walk",)),
-    Proof("walk", ("shade_walk",), {"CREDIT_LOG2": 5, "COUNT_W": 13}, depth=40, quick=False),
+    Proof("walk", ("shade_walk",), {"CREDIT_LOG2": 3, "COUNT_W": 5}),
+    Proof("span_walk", ("shade_span_walk",), quick=False),
+    Proof("node_walk", ("shade_node_walk",), depth=12, quick=False),
+    Proof("door", ("shade_door",)),
     Proof("registers", ("shade_registers",), depth=40, quick=False),
     Proof("collect", ("shade_collect",), quick=False),
     *(

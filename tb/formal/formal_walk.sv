@@ -58,7 +58,7 @@ module formal_walk #(
       // mutant: last_o  <= left_q == COUNT_W'(1) => last_o  <= left_q == COUNT_W'(2)
       framed : assert (!issue || (first == fresh_q && last == (left_q == COUNT_W'(1))));
       // Never more steps under way than credits.
-      // mutant: ALL = W'(1 << LOG2) => ALL = W'((1 << LOG2) + 1)
+      // mutant: .take_i(issue_o) => .take_i(issue_o && last_o)
       credits : assert (spent_q <= N_W'(1 << CREDIT_LOG2));
     end
   end

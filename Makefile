@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Polyshade. `make` sets up, renders the default head through the RTL and checks every pixel.
 # PYTHON=python3.12 chooses the interpreter, VERILATOR=/path an installed Verilator.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The contract between the RTL, the golden model and every user: formats, latencies, limits, codes.
 
 This is the one place where they are written down.  ``make generate`` turns it into

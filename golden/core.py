@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The shading core: spans of interpolated normals in, shaded pixels out. Mirrors ``rtl/core``.
 
 The stages of ``golden`` in the order of the data's way; nothing is computed here that is not one of theirs.

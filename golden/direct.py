@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The direct form: light at every pixel from scalars that additions step, without a normal (``rtl/surface``).
 
 A directional light and viewer ask for N.L, N.H and N.N alone. Along a triangle N is linear, so that the first two are

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixed-point steps that every unit shares: round, saturate, multiply, a third.
 
 Mirrors ``rtl/fixed``. All arguments and results are ``int64`` arrays of any shape (or Python integers); x with f

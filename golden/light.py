@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light at a node: angles, lobes, reflectance, colours (papers P1 and P3). Mirrors ``rtl/light``.
 
 Vectors as three arrays of components, S1.16 (18 bits); a unit vector has the length 65536. Every function takes

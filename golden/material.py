@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Material and light: physical parameters into the register values of ``shade_light`` and ``shade_light_local``.
 
 Parameters out of range raise ValueError with one line: the parameter, the cause, the range.

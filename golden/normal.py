@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Normals: unit vectors, and what saves computing them (papers P2 and P4). Mirrors ``rtl/normal``.
 
 Vectors as three arrays of components, S1.16 (18 bits); a unit vector has the length 65536. Every function takes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The packets of the streams as data: the one source for ``docs/interface.md``; their fields are those of ``types``.
 
 One packet is one beat of an AXI4-Stream, but for a triangle, which is four, followed by its runs. ``types.pack`` makes

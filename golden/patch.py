@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Patches: one polynomial of two variables for a box of a triangle's pixels (``rtl/surface/shade_patch``).
 
 A triangle's interpolated normal is linear, N(x, y) = N0 + x Gx + y Gy (P4's constant increment), so light is a smooth

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The planner: cuts a span into records that ``shade_poly_span`` draws, by one number: the kappa ladder.
 
 Along an arc whose end normals have the dot product c, the error of interpolating cos^n depends on

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Polynomial shading of a raster line (paper P1): coefficients, evaluators, whole spans. Mirrors ``rtl/poly``.
 
 Integers in units of 2^-16: node intensities S1.16 (18 bits), coefficients S8.16, values S10.16, t U1.16, pixels U0.16.

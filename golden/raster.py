@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Triangles: set-up, scan conversion, depth. Mirrors ``rtl/raster``; exact integers wherever coverage is decided.
 
 A triangle has three vertices of x, y (S15.8, y down), a depth (U0.24) and a normal (S0.16). Twice its area is

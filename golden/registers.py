@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The register map of the core: the one source for its AXI4-Lite slave, for drivers and for ``docs/registers.md``.
 
 Registers of 32 bits, by byte offset. Fields of material and light bear the names that ``golden.material`` gives to

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Flow: what a handshake lets through, step by step. Mirrors ``rtl/stream``."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light over whole triangles: the golden twins of ``rtl/surface``, see ``direct`` and ``patch``."""
 
 from . import patch

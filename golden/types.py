@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packed structures: what travels together on wires, in FIFOs and in packets; the one source for RTL and Python.
 
 ``make generate`` writes them into ``rtl/shade_pkg.sv`` as ``typedef struct packed``; :func:`pack` and :func:`unpack`

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every source of Polyshade, package first, a module before those that use it. Paths are relative to this file:
 // tools take it with -F from any folder; `make sources` writes one with absolute paths for those that only know -f.
 shade_pkg.sv

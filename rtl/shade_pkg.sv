@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
 // Generated from golden/contract.py, golden/registers.py and golden/types.py by `make generate`: change them there.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command ``polyshade``. A fault of the input is one line on standard error and exit status 2."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where the command ``polyshade`` begins: control-C ends it in one line, also while modules are imported."""
 
 import os

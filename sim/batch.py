@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many frames at once: one a process, on the cores of this machine or on a cluster, by Dask.
 
 A frame is the same wherever it is made. What a worker that dies had to do is done again by another one.

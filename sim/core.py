@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The shading core on whole frames: spans and settings in, pixels out, everything compared with the golden model.
 
 What the Verilated ``shade_core`` gives, value, tag and end mark of every pixel, counters and status, is compared with

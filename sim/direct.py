@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The direct form on whole frames: triangles and their runs through ``shade_direct``, each pixel compared."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The one exception that stands for a fault of the input rather than of the program."""
 
 LONGEST = 300

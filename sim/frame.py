@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One frame through the RTL: mesh -> spans -> ``shade_core`` -> z-buffer -> pictures and report.
 
 Scan conversion and z-buffer are done here, all between them by the Verilated core. Each pixel is compared with the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drives a Verilated module from arrays: one row of inputs a transfer, one row of outputs a transfer, clock by clock.
 //
 // Included behind a generated part (sim/model.py) that defines

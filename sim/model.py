@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Any module of the RTL as a NumPy-callable object: arrays in, arrays and clocks out, at millions of clocks a second.
 
 >>> third = sim.load("shade_third", WIDTH=18)

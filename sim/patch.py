@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Patches on whole frames: triangles and their runs through ``shade_patch``, each pixel compared with the golden model.
 
 The order of the pixels depends on which lane was free; each tells its place, so that both sides are sorted.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scan conversion in the RTL: projected vertices in, spans out, everything compared.
 
 What the Verilated ``shade_spans`` gives is compared with ``golden.raster`` bit for bit; which pixels it covers, and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where things are: the repository, its build folder, the RTL's file list that every tool reads."""
 
 from pathlib import Path

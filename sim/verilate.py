@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compile a module of the RTL into a shared library, once; ``build/sim`` keeps it, or POLYSHADE_CACHE.
 
 The key of a library is everything that goes into it: the sources that the module reaches, its parameters, this

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module in a compiled model, under the name and with the functions that cocotb's main program for Verilator uses.
 // So that program is compiled once and linked to any model of sim/verilate.py; see sim/harness.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the cocotb benches share: clock, reset, scoreboard; pipelines of fixed latency; streams with gaps and stalls.
 
 Time is counted in clocks; a clock ends with a rising edge. What a bench reads after ``await bench.tick()`` are the

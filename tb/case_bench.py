@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The one bench of all units that are pipelines: their cases of ``sim/units`` through cocotb, with gaps and resets."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What every test has in common: the seed in the header, and how to run a failed test again."""
 
 from collections.abc import Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """From pytest to the simulator: run a cocotb bench on a model that ``sim.verilate`` compiled, once, for all engines.
 
 The bench of ``rtl/<folder>/shade_<x>.sv`` is ``tb/<folder>/test_<x>.py``: it holds the cocotb tests and one pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every unit against its golden model, by both engines: millions of vectors by NumPy, gaps and resets by cocotb.
 
 The cases stand in ``sim/units``: vectors, golden twin, exact value of the formula and the error's bound.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light at a point in float64: the original models, and the lobe that P1 and P3 put in their place.
 
 Camera space: x right, y up, z towards the viewer. Normals (..., 3) of any length; lights and viewers are directions,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Unit normals in float64: P2's criterion, P4's metrics and midpoints, and the methods that both compare with.
 
 Vectors are arrays (..., 3), c is the cosine between two of them, z = N.N the square of a length. Formulas of a

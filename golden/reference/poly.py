@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Polynomial shading in float64: paper P1, section IV, as printed and with its division by three repaired."""
 
 from __future__ import annotations

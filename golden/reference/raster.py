@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a triangle has at a pixel, in float64: barycentric interpolation of its vertices at the pixel's centre."""
 
 from __future__ import annotations

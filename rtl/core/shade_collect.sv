@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_collect: the light at the nodes of a record, one node after the other, into a record of shade_poly_span.
 //
 //   light_i    S1.16, light at a node; a record's nodes come in rising order

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_core: the shading core: spans of interpolated normals in, shaded pixels out, settings and counters on AXI4-Lite.
 //
 //                           ┌─▶ shade_lane 0 ─▶ (shade_paint) ─▶ m_axis_pixel 0

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_door: packets of an AXI4-Stream in, good spans out to the next free lane: what is faulty stays outside.
 //
 //   s_axis_span_*    one beat a packet (tlast = 1, all of tkeep), see span_t

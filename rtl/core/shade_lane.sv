@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_lane: spans of interpolated normals in, shaded pixels out, one a clock: the whole way of the data, without a bus.
 //
 //   span ─▶ shade_line ─────────── normals at nodes ──┐

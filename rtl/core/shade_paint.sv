@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_paint: pixels of diffuse and specular light in, coloured pixels out, one a clock.
 //
 //   drawn_i     diffuse and specular light, U0.16; tag; last

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_phong: the yardstick: a unit normal and light at every pixel, exactly, without any of the papers' ideas.
 //
 //   span ─▶ shade_walk ─▶ shade_increment ─▶ shade_normalize ─▶ shade_light ─▶ clamp ─▶ shade_fifo ─▶ m_axis_pixel

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_registers: the register map of docs/registers.md as an AXI4-Lite slave: settings, status, counters.
 //
 //   s_axil_*      words of 32 bits, bits 1:0 of an address and *prot are ignored. Address and data of a write may come in any

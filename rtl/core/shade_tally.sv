@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_tally: what the lanes did in a clock, summed up for the registers.
 //
 //   valid_i, ready_i   of every lane's pixel

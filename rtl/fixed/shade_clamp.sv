@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_clamp: y = min(max(x, 0), 1), and whether that changed x: a cosine, a share or a threshold into its range.
 //
 //   x_i        sd.ffff     WIDTH bits, F of them below the point

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_delay: q_o = d_i of DEPTH clocks ago, in registers.
 //
 // Aligns data that need no arithmetic with the results of a pipeline beside them. Not reset. DEPTH = 0 is a wire. For many

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_hold: q_o = what d_i was DEPTH clocks ago, for a register d_i that is loaded every FOLD clocks.
 //
 //   d_i      a register with the enable load_i, which comes every FOLD clocks

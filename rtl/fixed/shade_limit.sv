@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_limit: y = min(max(x, -2^(OUT_W-1)), 2^(OUT_W-1) - 1): a signed number into fewer bits.
 //
 // Combinational. Same weight of the last bit on both sides; exact inside the range of y.

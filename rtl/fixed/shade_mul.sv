@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_mul: p = a b, signed. The only module of Polyshade in which a multiplication stands.
 //
 // An operand a of more than 18 bits is cut, so that every product fits one 18 x 18 block of any FPGA:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_ring: q_o = d_i of DEPTH clocks ago, in a small memory: a shade_delay of a quarter of the area for many clocks.
 //
 // A memory of 16 words that an address runs around in. It delays by up to 16 clocks; for more, the word is as many times as

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_round: y = floor(x / 2^DROP + 1/2): drop fraction bits, to nearest, ties towards plus infinity.
 //
 //   x_i  sddd ddd.d ffff     WIDTH bits, DROP of them below the point

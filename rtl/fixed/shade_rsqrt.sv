@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_rsqrt: 1 / sqrt(z) = y 2^-e for every integer z in [1, 2^36): range reduction, a table of parabolas.
 //
 //   z_i      U36.0                     such as a sum of three squares of S1.16 numbers (U4.32)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
 //
 // Generated from polyshade.golden.fixed.rsqrt_rom by `make generate`: change it there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_saturate: y = min(max(x, 0), 2^OUT_W - 1): clamp a signed number into an unsigned one of fewer bits.
 //
 // Combinational. Same weight of the last bit on both sides; exact inside [0, 2^OUT_W - 1].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_square: y = x^2, exact.
 //
 //   x_i     sddd dddd             WIDTH bits

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_square_fabric: y = x^2, exact, without a DSP block.
 //
 //   x_i     dddd dddd             WIDTH bits, unsigned

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_third: y = x / 3 by shifts and adds, in the format of x. |y| needs one bit less.
 //
 //   FORM_REFINED  x/3 = x/4 (1 + 1/4)(1 + 1/16)(1 + 1/256)(1 + 1/65536)...: the number of correct bits doubles with

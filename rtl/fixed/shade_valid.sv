@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_valid: the valid bit that accompanies a pipeline of fixed latency.
 //
 // valid_o = valid_i of DEPTH clocks ago; reset empties the pipeline. The data beside it are not reset.

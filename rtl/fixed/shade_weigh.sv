@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_weigh: w = K0 + KX x + KY y + KZ z with constants of 16 fraction bits, by shifts and adds, rounded once.
 //
 //   x_i, y_i, z_i  sddd.ffff          WIDTH bits, F of them below the point

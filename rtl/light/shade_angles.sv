@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_angles: from the directions at a node to its cosines: N.L, N.V, and the versine of R, V or of N, H.
 //
 //   n_i, l_i, v_i, h_i  x, y, z, S1.16, at bit 0, 18, 36     unit vectors; R = 2 (N.L) N - L

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_colour: what a pixel shows: ambient + kd max(0, diffuse) + ks max(0, specular), for red, green and blue.
 //
 //   diffuse_i, specular_i   sd.ffff    S1.16, interpolated light

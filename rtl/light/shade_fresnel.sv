@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_fresnel: F = F0 + (1 - F0) (1 - c)^5, Schlick's form of Fresnel's factor.
 //
 //   c_i, f0_i     d.ffff        U1.16 in [0, 1]; what is above 1 counts as 1. c = V.H, F0 = F at c = 1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_gain: s = lobe num fresnel (1 + w) gain 2^(e + gain_exp): the specular light of every model, saturated.
 //
 //   lobe_i, num_i, fresnel_i    d.ffff                 U1.16 in [0, 1]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_geometry: g = num (1 + w) 2^e, by which a light model multiplies its lobe: masking and the quotients.
 //
 //   Phong, Blinn    1, with cosine_i N.L

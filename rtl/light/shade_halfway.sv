@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_halfway: H = (L + V) / |L + V|, halfway between light and viewer, and the cosine V.H = L.H.
 //
 //   lx_i .. vz_i   sd.ffff     S1.16

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_light: light at a node in six models; directional light, viewer at infinity on the z axis, V = (0, 0, 1).
 //
 //   nx_i .. nz_i          S1.16        unit normal of a node

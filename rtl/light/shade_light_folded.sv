@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_light_folded: Lambert's and Blinn's light, directional, viewer at infinity, with three multipliers in all.
 //
 //   ports, formats, rounding, flags   as shade_light with REFLECT = 0 and DIVIDE = 0, to the bit

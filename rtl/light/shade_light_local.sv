@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_light_local: light at a node in six models; light and viewer in directions L and V of every node.
 //
 //   nx_i .. vz_i          S1.16        unit vectors: normal, to the light, to the viewer

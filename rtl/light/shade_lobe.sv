@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_lobe: max(0, 1 - k1 x + k2 x^2)^(2^power), the highlight of every model, over x = 1 - c, the versine of an angle.
 //
 //   x_i      dd.ffff f         U2.20   1 - c; beyond 1 (c < 0) the lobe is 0

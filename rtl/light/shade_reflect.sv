@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_reflect: R = 2 (N.L) N - L, the direction in which a mirror with normal N sends light that comes from L.
 //
 //   nx_i .. lz_i   sd.ffff             S1.16

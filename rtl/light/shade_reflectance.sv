@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_reflectance: light at a node in six models: diffuse N.L, specular gain fresnel lobe(x) g.
 //
 //   model_i          x          g: shade_geometry

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_versine: x = 1 - cos of the angle between two unit vectors: what every lobe is a function of.
 //
 //   FORM_REFINED  x = |a - b|^2 / 2     the chord: an error of the vectors' lengths enters squared or times x

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_bisect: n = (Na + Nb) InvC, the unit normal in the middle of two, InvC given.
 //
 //   ax_i .. bz_i   sd.ffff          S1.16

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_dot3: d = a . b, the dot product of two vectors; of unit vectors, the cosine of their angle.
 //
 //   ax_i .. bz_i        sd.ffff        S1.16

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_factor: what the sum of two unit normals is multiplied by to get the normal in their middle, by P4's variants.
 //
 //   variant_i          s

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_half: h = cos(psi/2), the cosine of half an angle, from c = cos psi.
 //
 //   FORM_REFINED  h = 1 - u/4 - 17 u^2/512 - 5 u^4/512      u = 1 - c

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_increment: interpolated normals by addition: from pixel to pixel, and from line to line.
 //
 //   first_i            P = L = n_i                 n_i: the normal at a triangle's (or line's) first pixel

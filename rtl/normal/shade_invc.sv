@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_invc: InvC = 1/sqrt(2 (1 + c)) and h = cos(psi/2) for c = cos psi: what the middle of two unit normals needs.
 //
 //   FORM_REFINED            InvC = 1/2 + u/8 + (3390 u^2 + 1988 u^4)/2^16    h = 1 - u/4 - 17 u^2/512 - 5 u^4/512

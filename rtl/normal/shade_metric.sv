@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_metric: the length that the middle of two unit normals has before it is normalized, by P4's two estimates.
 //
 //   d1a = 0.06 c + 0.007 m + 0.894      cos(x/m): c = cos x of the ends of a line of m sectors, m = 3 .. 12

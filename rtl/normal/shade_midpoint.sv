@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_midpoint: n = (Na + Nb) InvC(c), the unit normal in the middle of two with c = Na . Nb, without a root.
 //
 //   ax_i .. bz_i, x_o, y_o, z_o  S1.16     components; rounding and saturation: shade_bisect

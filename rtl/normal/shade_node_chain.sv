@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_node_chain: the unit normals at 0, 1/4, 1/2, 3/4, 1 of an arc, from its ends and the one cosine c = Na . Nb.
 //
 //   N2 = (Na + Nb) InvC(c)      h = cos(psi/2)      two midpoint steps in a row; h is the c of both halves,

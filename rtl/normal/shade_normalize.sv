@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_normalize: n = v / |v| for vectors of every length, to the last bit.
 //
 //   x_i, y_i, z_i  S1.16              any vector but 0

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_pixel_normals: a line of interpolated normals in, its unit normals out, one a clock, by P4's method.
 //
 //   pixel 0, 2, 4, ... and the last one  E: interpolated and normalized exactly

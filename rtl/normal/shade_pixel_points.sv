@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_pixel_points: spans in, the unit normal of every pixel out, each a record of its own: P4's producer of points.
 //
 //   span_i       1 .. 4096 pixels, with the cosine of its ends

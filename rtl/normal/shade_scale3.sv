@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_scale3: n = v s 2^GAIN, a vector times a number below 1 (GAIN = 0), or twice that (GAIN = 1).
 //
 //   x_i, y_i, z_i  sd.ffff               S1.16

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_unit: n = v / |v| of an interpolated normal, which is not far from unit length; or v as it is.
 //
 //   x_i, y_i, z_i  sdd.ffff        S2.15, |v| >= 1/8

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_criterion: how much too dark a triangle gets when its normals are not normalized, and whether that is too much.
 //
 //   eta = delta(cAB) + delta(cBC) + delta(cCA)      delta(c) = 1 - sqrt((1 + c)/2)      c: cosine of an edge's normals

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_kappa: kappa = n (1 - c) of an arc of 2^k pixels, from the increment of its normals: what the planner goes by.
 //
 //   kappa = n |g|^2 4^k / 2       1 - c = |2^k g|^2 / 2 between unit normals

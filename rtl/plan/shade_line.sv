@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_line: spans in, unit normals at the nodes of their records out: the line form's producer of points.
 //
 //   span ─┬─▶ shade_planner ─▶ plans ─┐

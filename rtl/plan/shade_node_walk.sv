@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_node_walk: a planned span in, the interpolated normals at the nodes of its records out, one a clock.
 //
 //   N(j) = N + j G        j pixels from the span's start: by adders, as every step is a power of two of pixels

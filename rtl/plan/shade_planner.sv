@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_planner: how a span is cut into records: length and degree by kappa, from increment and pixel count.
 //
 //   whole = ceil(log2(count - 1))   the span's arc has 2^whole pixels, and shade_kappa its kappa

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_stretch: a planned span in, its one or two stretches out: records of one kind, with the step from node to node.
 //
 //   stretch 0   main records of 2^log2 pixels, if plan_i.split

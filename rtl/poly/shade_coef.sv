@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_coef: the coefficients A, B, C, D of a span from its node intensities, for degree 3, 2, 1 or 0.
 //
 //   degree 3  cubic through four nodes {0, 1/4, 1/2, 1} (NODES_LEFT) or {0, 1/2, 3/4, 1} (NODES_RIGHT)

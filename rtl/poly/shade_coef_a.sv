@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_coef_a: coefficient A of the cubic I(t) = A t^3 + B t^2 + C t + D through four node intensities.
 //
 //   NODES_LEFT  {0, 1/4, 1/2, 1}   FORM_PAPER    8 (8 I2 + I4)/3 - 8 (I1 + 2 I3)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_coef_b: coefficient B of I(t) = A t^3 + B t^2 + C t + D through the node intensities of a span.
 //
 //   degree 3, NODES_LEFT  {0, 1/4, 1/2, 1}   2 (7 I1 - 16 I2 + 10 I3 - I4)  = 2 (10 d3 - 16 d2 - d4)     dk = Ik - I1

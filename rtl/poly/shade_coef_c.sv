@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_coef_c: coefficient C of I(t) = A t^3 + B t^2 + C t + D through the node intensities of a span.
 //
 //   degree 3, NODES_LEFT  {0, 1/4, 1/2, 1}   FORM_PAPER    (32 I2 + I4)/3 - 7 I1 - 4 I3

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_coef_d: coefficient D = I1 of I(t) = A t^3 + B t^2 + C t + D: the intensity where t = 0, for every degree.
 //
 // Nothing to compute: it waits for A, B and C. Latency LATENCY_COEF = 9 clocks, one value a clock, exact.

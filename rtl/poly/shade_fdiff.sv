@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_fdiff: I(j h) = A t^3 + B t^2 + C t + D for j = 0, 1, 2, ... by forward differences, h = 2^-k: three additions a
 // pixel and no multiplication at all.
 //

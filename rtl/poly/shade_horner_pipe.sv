@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_horner_pipe: I(t) = ((A t + B) t + C) t + D, a new t (and, if need be, new coefficients) on every clock.
 //
 //   a_i, b_i, c_i  sdddddddd.ffff         COEF_W bits, S8.16

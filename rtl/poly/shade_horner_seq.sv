@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_horner_seq: I(t) = ((A t + B) t + C) t + D with one multiplier, one adder and one register (P1, Fig. 9).
 //
 //            A   RG            C   D

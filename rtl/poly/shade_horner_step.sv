@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_horner_step: one step of Horner's scheme, y = round(s t) + c.
 //
 //   s_i, c_i, y_o  WIDTH bits, signed, all with the same weight of the last bit

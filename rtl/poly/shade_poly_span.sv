@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_poly_span: a span's node intensities in, its shaded pixels out, one a clock, no bubble between spans.
 //
 //   span ─▶ shade_span_walk ─ tokens ─▶ shade_coef ─ A, B, C, D ─▶ evaluator ─▶ clamp ─▶ shade_fifo ─▶ pixels

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_span_walk: walks along a record: one record in, one pixel token out a clock, as long as there are credits.
 //
 // The n pixels of a record lie at t = 0, h, 2 h, ... with h = 2^-log2, n - 1 <= 2^log2: every node of the polynomial

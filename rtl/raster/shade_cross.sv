@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_cross: sums of two products, +-(p q - s t), of wide numbers in several passes.
 //
 //   p_i, q_i, s_i, t_i  S18.0: numbers, or parts of wider ones: x = xh 2^17 + xl, xl unsigned

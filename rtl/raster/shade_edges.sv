@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_edges: the three edges of a triangle as a raster walks them, the two from the top vertex first.
 //
 // load_i takes vertices 0, 1, 2 (x_i, y_i, S15.8). With some_o an edge stands at the outputs; step_i goes on to the next.

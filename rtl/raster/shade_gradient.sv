@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_gradient: increments of a component per column and line, 256 sum / A, of exact sums and the reciprocal of A.
 //
 //   sum_i       S52.0     v1 dy2 - v2 dy1, then with line_i v2 dx1 - v1 dx2, the sign of A taken out

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_lines: surfaces and their runs to spans, the packet that shade_core, shade_pixel_normals and shade_phong take.
 //
 // m_axis_span: packet SPAN: the run's normal and its increment, S2.29, pixels, tag, flat; the cosine is 1, as variants V1

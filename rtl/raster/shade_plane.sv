@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_plane: normal and depth at the first pixel of a triangle's first run; the runs pass through.
 //
 //   value = vertex 0 + (dcolumn (256 column + 128 - x) + dline (256 line + 128 - y)) / 2^8, to nearest, ties up, modulo 4

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_raster: the runs of a triangle, line by line downwards, by walking along its edges.
 //
 // edge_i: three edges of a triangle as shade_edges gives them, the two from the top vertex first, with the remainder r of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_reciprocal: 1/a = r 2^-17 2^-e for an integer a, 1 <= a < 2^51: range reduction, then a division bit by bit.
 //
 //   a_i  U51.0         with start_i, at most every 10 clocks

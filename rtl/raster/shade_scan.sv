@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_scan: triangles of three vertices to surfaces and their runs: set-up, culling, scan conversion.
 //
 // s_axis_vertex: packet VERTEX, three beats a triangle. surface_o, run_o: see shade_plane; the runs of a surface follow

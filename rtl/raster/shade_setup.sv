@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_setup: checked triangles to edges, and to increments of normal and depth; culling; what has no area is left out.
 //
 // A triangle (valid_i, ready_o, see shade_vertices) waits in a first place until the sign of its area is known,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_spans: triangles of three vertices to spans: a scan converter in front of shade_core.
 //
 // s_axis_vertex: see shade_scan; m_axis_span: see shade_lines. error_o, culled_o, empty_o count what was skipped since

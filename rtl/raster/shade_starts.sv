@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_starts: what a triangle's normal and depth are at the first pixel of each of its runs.
 //
 //   start_o = value + dcolumn (column - column of the first run) + dline (line - line of the first run), modulo 4

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_vertices: packets of three vertices to triangles, with every number checked.
 //
 // s_axis_vertex: packet VERTEX, one vertex a beat, tlast with the third. Words of 32 bits: x, y S15.8, depth U0.24,

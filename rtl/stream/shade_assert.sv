@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_assert: simulation stops when a condition does not hold: at every rising edge outside of a reset, holds_i = 1.
 //
 // The only module with an assertion: the name of its instance tells what went wrong. Nothing is left of it in synthesis

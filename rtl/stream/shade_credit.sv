@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_credit: counts the places that are free in a FIFO behind a pipeline: credit = 2^LOG2 - taken + given back.
 //
 //   take_i   a place is taken in this clock: only where there was one

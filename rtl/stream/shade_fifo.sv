@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_fifo: first in, first out: 2^LOG2 words of memory and an output register.
 //
 // valid_i writes; the writer keeps a credit for every word, so that a full FIFO is never written (no ready_o, hence no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_stable: asserts a rule of valid/ready streams: a word that waits is offered again, unaltered.
 //
 // For simulation and proofs: nothing is left of it in synthesis. No output, no latency.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_walk: control of a walk: an item of n steps in, n steps out, one a clock, as long as there are credits.
 //
 // load_o: an item is taken in this clock; issue_o: a step is made, first_o and last_o frame the item's. A new item is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_chord: specular light from x = 1 - cos by a table of 1024 chords over x 2^shift in [0, 1).
 //
 //   i = top 10 bits of x 2^shift, f = the 12 below;   specular = value(i) + slope(i) f, rounded to nearest

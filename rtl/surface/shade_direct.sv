@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct: light at every pixel of triangles, from scalars that additions step: no normal, no root of a vector.
 //
 //   packet ─▶ door ─▶ setup ─▶ line ─▶ shade_fifo ─▶ run ─▶ light ─▶ shade_fifo ─▶ m_axis_pixel

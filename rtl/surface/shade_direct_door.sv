@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct_door: takes packets of triangles and runs apart; fills the table of the lobe.
 //
 //   s_axis_surface_*  triangle_t in four beats, then a run_t a beat, tlast with the last run; or lobe_t, then entries

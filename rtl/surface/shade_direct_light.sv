@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct_light: diffuse and specular light of a pixel from its scalars a = N.L, h = N.H, P = N.N.
 //
 //   rho = 1/sqrt(P) - 1,  diffuse = a + a rho,  y = 1 - h,  x = 1 - cos = y - rho + y rho,  specular = lobe(x)

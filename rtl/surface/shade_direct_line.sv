@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct_line: steps a triangle's scalars from run to run by additions and gives each run a start.
 //
 //   a line down:   a += a_l; h += h_l; p_c += p_cl; p_l += 2 p_ll; p += p_l

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct_moves: how a run's first pixel is reached from the first pixel of the run before: lines and columns.
 //
 //   lines = line - (line of the last good run) - 1, columns = column - column of the last good run: negative to the left

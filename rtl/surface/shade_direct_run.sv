@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct_run: steps the scalars along a run, a pixel a clock: four additions, no product.
 //
 //   a += a_c; h += h_c; p += p_c; p_c += 2 p_cc          modulo their widths, exact

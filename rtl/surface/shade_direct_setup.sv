@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_direct_setup: the coefficients of a triangle's scalars a = N.L, h = N.H, P = N.N.
 //
 //   vectors n, c, l (normal, increments per column and line, divided by 2^exp) -> 12 dot products, exact, then shifted:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch: triangles and their runs in, pixels out: light at six nodes of a box, a polynomial of two variables between them.
 //
 //   surface ─▶ door ─▶ front (plan) ─┬─▶ walk ─▶ dots ─▶ nodes ─▶ light ─┐

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_clip: cuts a row of boxes out of its runs: box by box, line by line, which of the box's pixels are there.
 //
 //   row_*, line_o, first_i, end_i   of shade_patch_rows

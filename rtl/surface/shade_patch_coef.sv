@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_coef: from the light at six nodes, one after the other, to what a box's lines start from, in one channel.
 //
 //   light_i     S1.16, node 0 .. 5 (C, E, A, B, F, G of golden.patch) in node_i, with valid_i

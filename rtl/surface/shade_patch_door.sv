@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_door: takes packets of s_axis_surface apart: a triangle, four beats, and its runs; words of the table.
 //
 //   s_axis_surface   packets TRIANGLE and RUN of docs/interface.md; a beat with tuser = 1 is no part of them: it writes

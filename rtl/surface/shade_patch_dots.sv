@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_dots: the dot products that the light of a box's pixels is made of, one a clock: for a triangle's first box
 //
 //   L.dx, L.dy, H.dx, H.dy, dx.dx, dx.dy, dy.dy, and for every box  N.L, N.H, N.N, N.dx, N.dy        S4.22, in this order

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_front: the sizes of a triangle's boxes: shade_patch_way finds how far its normal goes while the packet comes in,
 // shade_patch_plan decides.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_lane: the pixels of a piece of a line, two additions a channel each.
 //
 //   piece_i     {specular d2, d1, I, diffuse d2, d1, I, count - 1, column, line, tag}: I S5.22, its step and the step's step

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_light: Lambert's light and a highlight over N.H from scalars of an interpolated normal N that is not normalized.
 //
 //   node_i       {N.N, N.H, N.L}, S4.22

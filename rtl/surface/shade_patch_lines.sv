@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_lines: from a box's coefficients to the start of each of its lines, in one channel.
 //
 //   ct_i .. p_i    of shade_patch_coef; they stay for 2 clocks behind load_i

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_nodes: N.L, N.H and N.N where a box is lit: at its six nodes, or at each of its pixels.
 //
 //   dot_i     the products of shade_patch_dots, taken with dot_ready_o

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_norm: about the length of a vector: (largest + sum) / 2 of the absolute values of its components.
 //
 //   x_i, y_i, z_i   signed, WIDTH bits

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_pieces: from the light at nodes and the pixels of boxes to pieces of lines for shade_patch_lane.
 //
 //   meta_*, light_*, token_*   of shade_patch_nodes, {specular, diffuse} of shade_patch_light, and shade_patch_clip, from FIFOs

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_plan: how large the boxes of a triangle may be: 2^kx by 2^ky pixels, kx, ky 2 .. 4.
 //
 //   a_i, b_i   U3.18  norm of the normal's increment a column, a line;   far_i  S7.18  how far away the highlight is

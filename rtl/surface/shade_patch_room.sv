@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_room: is there room in a FIFO for what is on its way to it.
 //
 // put_i, taken_i: a word is written, is read. room_o is 1 while at most LIMIT words are inside; a clock late.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_rows: gathers the runs of a triangle that lie in one row of its boxes, line by line, in one of two banks.
 //
 //   triangle_valid_i, ky_i   a triangle that is taken with its first run: triangle_take_o

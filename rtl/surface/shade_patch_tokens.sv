@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_tokens: a FIFO whose writer may take back what it wrote: shade_patch_clip learns with a box's last line whether the
 // box is drawn from its tokens.
 //

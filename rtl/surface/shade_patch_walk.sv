@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_walk: the normals in the middle of a triangle's boxes, found by adding increments.
 //
 //   triangle_i, corner_i, kx_i, ky_i   of a triangle, taken with triangle_take_o: {Gy, Gx, tag, line, column of its box}, Gx and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_patch_way: how far a triangle's normal goes, and how far away the highlight is: what shade_patch_plan decides by.
 //
 //   valid_i, triangle_i   of shade_patch_door, until pass_o: it is copied

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_rho: rho = 1/sqrt(P) - 1: by how much a normal of length sqrt(P) has to grow to length 1.
 //
 //   rho = c0 + s d,  s = c1 + c2 d          a parabola of P for each 1/128 of it, d = P - middle of the segment

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shade_rho_rom: the table of shade_rho: 1/sqrt(P) - 1 = c0 + c1 d + c2 d^2 on segment i_i / 128 of P.
 //
 // Generated from polyshade.golden.direct.rho_rom by `make generate`: change it there.

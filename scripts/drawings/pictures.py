@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The pictures that the READMEs show, made again from what the RTL does: ``make pictures``.
 
 docs/head.png              the default head, every pixel out of the RTL

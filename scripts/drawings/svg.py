@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Drawings of the documentation as SVG: a few strokes and texts, and timing diagrams."""
 
 from __future__ import annotations

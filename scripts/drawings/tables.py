@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The tables of the documents, made from what was measured: ``make tables`` (``--check``: compare).
 
 Long runs leave their results in ``build/*.json``. ``docs/figures.json`` keeps the extract of them that the documents

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Signals of a module as arrays, one value a clock, read from the waveform of a run."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What documents, headers and docstrings mention exists: files, sections, modules, commands. Part of ``make lint``."""
 
 from __future__ import annotations

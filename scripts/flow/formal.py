@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``make formal``: properties of the modules with flow control, and of small arithmetic; left in ``build/formal.json``.
 
     [{module, property, engine, depth, result, seconds, meaning, assumptions, mutant}]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Write what the RTL takes from the golden model: ``make generate`` (``--check``: compare).
 
 ``rtl/shade_pkg.sv`` from ``golden/contract.py``, ``golden/registers.py`` and ``golden/types.py``, the tables
@@ -18,6 +19,7 @@ from polyshade.golden import direct, fixed, packets, registers, types
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = """\
+// SPDX-License-Identifier: Apache-2.0
 // shade_pkg: formats, latencies, limits and codes of Polyshade.
 //
 // Generated from golden/contract.py, golden/registers.py and golden/types.py by `make generate`: change them there.
@@ -134,6 +136,7 @@ def _register_file() -> list[str]:
 
 
 ROM_HEADER = """\
+// SPDX-License-Identifier: Apache-2.0
 // shade_rsqrt_rom: the table of shade_rsqrt: 1/sqrt(m) = c0 + c1 d + c2 d^2 on segment i_i / 32 of [1, 4).
 //
 // Generated from polyshade.golden.fixed.rsqrt_rom by `make generate`: change it there.
@@ -168,6 +171,7 @@ def rsqrt_rom() -> str:
 
 
 RHO_HEADER = """\
+// SPDX-License-Identifier: Apache-2.0
 // shade_rho_rom: the table of shade_rho: 1/sqrt(P) - 1 = c0 + c1 d + c2 d^2 on segment i_i / 128 of P.
 //
 // Generated from polyshade.golden.direct.rho_rom by `make generate`: change it there.

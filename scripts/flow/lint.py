@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Everything that can be wrong with the sources before anything is simulated: ``make lint``.
 
 * the file list names every file under ``rtl/`` once, the package first;
@@ -9,6 +10,7 @@
   cells (all the way to the cells of a family: ``scripts.flow.synth``);
 * Icarus, if it is installed, reads the plain Verilog that Yosys writes of each of these;
 * what there should be less of does not grow: part selects, ports, idle handshakes, initial values, long modules;
+* every source names its licence;
 * every module is named like its file, opens with a header that states formula, latency and an example, has a row
   in ``rtl/README.md``, a golden twin, and a case in ``sim/units`` or a bench in ``tb``;
 * what documents, headers and docstrings mention exists (``scripts.flow.documents``); tables are those that
@@ -41,6 +43,7 @@ from polyshade.sim.verilate import reached
 from tqdm import tqdm
 
 RTL = ROOT / "rtl"
+LICENCE = "SPDX-License-Identifier: Apache-2.0"
 CATALOGUE = RTL / "README.md"
 # They hand data on unaltered, or count: there is nothing to model.
 CARRIERS = {
@@ -68,6 +71,7 @@ def items() -> Iterator[Item]:
     yield Item("ruff format", partial(_ruff, "format", "--check", "--quiet", "--output-format=concise"))
     yield Item("verible", partial(verible, sources()))
     yield Item("ratchets", ratchets)
+    yield Item("licence", licence)
     yield Item("documents", documents.check)
     yield Item("tables", tables.check)
     for module, path in modules().items():
@@ -92,11 +96,24 @@ def file_list() -> list[str]:
     return faults
 
 
+def licence() -> list[str]:
+    """Sources without the line that names their licence."""
+    kinds = {".py", ".sv", ".sh", ".cpp", ".h", ".vlt", ".f"}
+    sources = [name for name in documents.files(ROOT) if Path(name).suffix in kinds or name == "Makefile"]
+    return [
+        f"{name}: its first lines do not hold '{LICENCE}'" for name in sorted(sources) if not _licensed(ROOT / name)
+    ]
+
+
+def _licensed(path: Path) -> bool:
+    return LICENCE in "".join(path.read_text().splitlines(True)[:2])
+
+
 def mirror(module: str, path: Path) -> list[str]:
     """Faults of a module's name, header, bench, catalogue row and golden twin."""
     if not path.exists():
         return []  # told by file_list
-    text = path.read_text()
+    text = path.read_text().removeprefix(f"// {LICENCE}\n")
     faults = []
     if re.findall(r"^\s*module\s+(\w+)", text, re.MULTILINE) != [module]:
         faults.append(f"{_short(path)}: must hold the one module {module}")

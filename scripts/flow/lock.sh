@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Writes requirements.txt, the pinned and hashed closure of requirements.in: scripts/flow/lock.sh
 # The resolver's settings stand in pyproject.toml, [tool.uv]. It lives in a scratch environment.
 set -eu

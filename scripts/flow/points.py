@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parameter points at which every module is elaborated on its own, by lint and by synthesis.
 
 The default point is always one of them. ``REFUSED`` holds points that elaboration must refuse in words.

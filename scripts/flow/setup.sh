@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Makes the virtual environment: scripts/flow/setup.sh VENV  (PYTHON=... chooses the interpreter).
 # Everything that the machine itself must bring is checked first and named at once. POSIX sh, because
 # Python may be what is missing.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Area and clock rate of every module on every FPGA family: ``make synth``, left in ``build/synth.json``.
 
     {"<module>": {"<family>": {"lut": 1, "ff": 2, "dsp": 3, "bram": 4, "fmax_mhz": 5.6}}}

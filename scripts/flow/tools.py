@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run Yosys and nextpnr.
 
 ``python -m polyshade.scripts.flow.tools`` prints what is found; with the argument ``cocotb`` it checks what only the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Yosys as a program: ``python -m polyshade.scripts.flow.yosys SCRIPT``.
 
 Yosys comes as a Python extension, and a command that fails ends the whole process. So every job is a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``make bench``: how fast a frame is simulated, and what the core gains; left in ``build/bench.json``.
 
     {"<name>": {value, unit, versus, ratio}}

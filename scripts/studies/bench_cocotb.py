@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The cocotb side of ``scripts/studies/bench.py``: spans into shade_poly_span, pixels out, as plainly as cocotb can."""
 
 import json

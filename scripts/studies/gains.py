@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the core gains over its yardstick ``shade_phong``: the same spans, the same light; part of ``make bench``.
 
 Products of two 18-bit numbers that are executed for a pixel, and pixels a clock, of the default head and of a sphere of

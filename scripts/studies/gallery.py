@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``polyshade gallery``: every model, energy scale and form through the RTL, on one sheet."""
 
 from __future__ import annotations

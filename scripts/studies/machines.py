@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which machine to choose: area, clock rate, speed and error of every path and number of lanes: ``make machines``.
 
 Leaves ``build/machines.json``: ``{"<path>/<lanes>/<models>/<lights>": {...}}``. :data:`MACHINES` is the list; a new one

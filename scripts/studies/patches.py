@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Boxes of patches: lights a pixel and the error, by node set, tolerance and weight; leaves ``build/patches.json``.
 
     python -m polyshade.scripts.studies.patches

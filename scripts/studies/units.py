@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``make units``: every unit, both forms, measured over many vectors; left in ``build/units.json``.
 
     {"<module>/<form>": {vectors, exhaustive, mismatches, max_error_ulp, max_error_ideal, worst_input, latency,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The camera: turns a mesh, fits it into a square frame, projects it.
 
 Axes. Mesh and camera space are right-handed: x to the right, y up, z towards the viewer. Screen space is measured

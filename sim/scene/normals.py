@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Normals that a mesh lacks: which faces share one at a vertex, and what it is. Millions of faces, block by block."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scan conversion in exact integers, and the z-buffer.
 
 Vertices are snapped to 1/256 pixel; from there on every question of coverage is answered in int64, so that

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The unit sphere as a subdivided icosahedron."""
 
 from __future__ import annotations

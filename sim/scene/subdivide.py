@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Catmull-Clark subdivision and triangulation of polygon meshes, vectorized over faces of any number of corners."""
 
 from __future__ import annotations

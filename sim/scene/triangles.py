@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What scan conversion found as packets TRIANGLE and RUN, see ``golden.types``."""
 
 from __future__ import annotations

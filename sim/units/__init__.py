@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every arithmetic unit with its golden twin, the exact value of its formula, and vectors: for tests and report.
 
 One file a folder of ``rtl/``, of ``light`` two; ``case`` says what is measured and makes the vectors.

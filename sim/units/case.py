@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a unit is measured by: its golden twin, the exact value of its formula, and vectors.
 
 A :class:`Case` is a module at a parameter point with a stream of vectors: all of them at reduced widths, directed

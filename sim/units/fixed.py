@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Round, saturate, multiply, delay, a third, the weighted sum, the reciprocal square root."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light at a node: angles, directions, highlights, Fresnel's factor, colours."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Normals: dot product, scaled sums, InvC, nodes, P4's metrics, increments."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Arithmetic parts of patches that stand alone; the whole is compared in every bit by ``tb/surface/test_patch.py``."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The planner, its measure kappa, and P2's criterion: whether a triangle is flat enough to go without normalizing."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Coefficients of a span and their evaluation."""
 
 from __future__ import annotations

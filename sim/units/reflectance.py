@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light at a node in six models: its angles, quotients and gain, and the whole.
 
 Settings hold for a run: each has a material of its own, so that half a million vectors see twenty of each model.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Whole streams: the buffer, spans to pixels, lines to normals."""
 
 from __future__ import annotations

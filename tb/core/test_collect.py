@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_collect: the light at nodes, one after the other, into records, to the bit of golden.core.collect."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_core: spans and settings in, pixels out, to the bit of golden.core.core, on buses driven by a library."""
 
 import itertools

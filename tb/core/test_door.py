@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_door: good spans to the lane with least to draw; every fault told once, and nothing of it comes in."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_lane: spans in, pixels out, to the bit of golden.core.lane, by either path, with pauses."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_paint: pixels of light in, coloured pixels out, to the bit of golden.core.paint, with pauses."""
 
 import cocotb

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_phong: spans in, pixels lit one by one out, to the bit of golden.core.phong, with pauses."""
 
 import cocotb

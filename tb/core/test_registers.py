@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_registers: every field, strobe, response and counter as golden.core.RegisterFile, whatever the bus does."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_tally: sums over lanes, clock by clock, against counting by hand."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Spans and settings that several benches of rtl/core share."""
 
 from dataclasses import dataclass

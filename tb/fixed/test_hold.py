@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_hold: a register's value of DEPTH clocks ago, a place for every FOLD clocks."""
 
 from tb.bench import Bench, checked

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_ring: every word again, DEPTH clocks later, whatever reset does in between."""
 
 from tb.bench import Bench, checked

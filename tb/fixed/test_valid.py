@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_valid: valid_i again, DEPTH clocks later; a reset empties the pipeline."""
 
 from tb.bench import TRAFFIC, Bench, checked

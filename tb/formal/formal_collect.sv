@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_collect: shade_collect gives a record a clock after its last node, with the light that came for each node.
 //
 // A free constant chooses one slot, another one bit of both lights: what is true of it is true of all.

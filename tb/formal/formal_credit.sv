@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_credit: shade_credit knows in every clock whether a place is free, and in every clock whether one will be.
 module formal_credit #(
   parameter int LOG2 = 2

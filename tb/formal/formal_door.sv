@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_door: shade_door hands every good span to one lane that is ready, unaltered and in order, and tells of all others.
 //
 // Spans have a count of 0, 1, 2 or 4097 and two bits of a tag; the rest of a packet is 0, and the door does not look at it.

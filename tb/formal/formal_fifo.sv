@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_fifo: shade_fifo keeps the order and the content of its words, loses none, and gives them on in time.
 //
 // A free input marks one word; what lies ahead of it is counted until it comes out.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_node_walk: the nodes of a span are those that its plan asks for, in order, one in every clock that allows it.
 //
 // Bit 0 of the tag marks one span; its plan is held, and a model of its records is advanced by every marked node. Control

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_registers: shade_registers answers every access once, in time, and changes no setting while the core is busy.
 module formal_registers (
   input logic        clk_i,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_round: y = floor(x / 2^DROP + 1/2): 2^DROP y <= x + 2^(DROP-1) < 2^DROP (y + 1).
 module formal_round #(
   parameter int WIDTH = 12,

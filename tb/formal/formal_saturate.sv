@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_saturate: shade_saturate, shade_limit and shade_clamp are min(max(x, low), high).
 module formal_saturate #(
   parameter int WIDTH = 20,

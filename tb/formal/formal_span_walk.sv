@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_span_walk: shade_span_walk gives one token for every pixel of a record, at t = j 2^-log2, and waits for credits.
 //
 // The model holds the head and one bit of each node of the record at hand, and counts its pixels.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_third: refined, y is the integer nearest to x / 3: 6 y <= 2 x + 3 < 6 y + 6; paper, 43 x / 128 to nearest.
 module formal_third #(
   parameter int WIDTH = 18,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_walk: shade_walk makes as many steps as an item asks for, one in every clock in which there is a credit.
 //
 // The model: the steps that the item at hand still has, and the credits that are spent.

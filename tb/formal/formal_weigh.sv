@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // formal_weigh: w = K0 + KX x + KY y + KZ z, rounded once: the shifts and adds are the multiplications that they stand for.
 module formal_weigh #(
   parameter int WIDTH = 6,

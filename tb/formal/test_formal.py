@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The proofs that take seconds, and that every property of theirs can fail; all of them: ``make formal``."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixed-point steps against exact fractions."""
 
 from __future__ import annotations

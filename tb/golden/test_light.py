@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """golden.light: angles, directions, Fresnel's factor and colours by hand, in exact fractions."""
 
 from fractions import Fraction

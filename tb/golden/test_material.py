@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Material: fits of the lobe against the functions that it stands for, energy, register values, refusals."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """golden.normal: the recurrence of the increments, step by step; lines of normals by hand."""
 
 import numpy as np

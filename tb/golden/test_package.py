@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The package as a whole: it stands alone, its examples are true, the RTL's constants are its own."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packets: the functions that pack them put every field where the tables say."""
 
 import numpy as np

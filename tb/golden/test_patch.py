@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """golden.patch: boxes, nodes and polynomials against what they stand for, and the error of a whole frame."""
 
 from __future__ import annotations

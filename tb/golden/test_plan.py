@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The planner: against a plain program of its rule, and by what any plan must keep."""
 
 from __future__ import annotations

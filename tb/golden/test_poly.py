@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Polynomials against exact fractions, and against recurrences in Python's unbounded integers."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Set-up and scan conversion of integers against exact rationals, and the perspective that interpolation leaves out."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The papers in float64, by numbers from the papers and from geometry."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The papers' normals in float64: numbers from the papers, from geometry, and operations counted by tracing."""
 
 from __future__ import annotations

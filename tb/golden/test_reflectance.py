@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """golden.light, from the angles to the light of six models: corners by hand, whole spheres against float64."""
 
 import numpy as np

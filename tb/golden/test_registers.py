@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The register map: no overlaps, resets that fit, words there and back, the page and the package from one source."""
 
 from __future__ import annotations

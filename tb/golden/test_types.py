@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packed structures: there and back, one order, and what does not fit is refused."""
 
 import numpy as np

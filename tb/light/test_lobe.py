@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_lobe: a limited parabola under a power of 2, to the bit of golden.light.lobe, with every fold."""
 
 import random

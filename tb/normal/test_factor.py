@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_factor: the factor of a middle normal by every variant, to the bit of golden.normal.factor, on every clock."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_increment: normals from pixel to pixel and from line to line, to the bit of golden.normal.increment."""
 
 import numpy as np

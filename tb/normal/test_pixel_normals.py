@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_pixel_normals: lines in, unit normals out, to the bit of golden.normal.pixel_normals, with pauses."""
 
 from dataclasses import dataclass

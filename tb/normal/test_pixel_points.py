@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_pixel_points: spans in, the normal and the place of every pixel out; a credit each."""
 
 import cocotb

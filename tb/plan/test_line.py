@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_line: spans in, unit normals at the nodes of their records out, as golden.plan.line has them; credits."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_node_walk: planned spans in, the normals at their nodes out, as golden.plan.node_walk has them; credits."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_stretch: planned spans in, their stretches out, as golden.plan.stretch has them."""
 
 import cocotb

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_fdiff: a polynomial by forward differences, to the bit of golden.poly.fdiff, a pixel on every clock."""
 
 import numpy as np

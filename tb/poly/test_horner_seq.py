@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_horner_seq: the evaluator of P1, Fig. 9: values of golden.poly.horner, and every step that leads to them."""
 
 import random

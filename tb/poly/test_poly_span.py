@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_poly_span: spans in, pixels out, to the bit of golden.poly.poly_span, on AXI4-Stream ports that may pause."""
 
 import logging

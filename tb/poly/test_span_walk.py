@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_span_walk: spans in, pixel tokens out, as golden.poly.span_walk orders them; a credit each."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Inputs that several benches of rtl/poly share, by port."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Structures at ports, and outputs that only have a valid bit."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_cross: sums of two products in one, two and four passes, to the bit."""
 
 import numpy as np

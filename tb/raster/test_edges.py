@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_edges: the three edges of any triangle, in order, as first columns and lines see them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_gradient: increments of millions of sums, to the bit and in time, and their error against exact quotients."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_lines: surfaces and runs to packets SPAN, with gaps and stalls; a waiting packet stays as it is."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_plane: value at the first pixel, from pairs, vertex 0 and first run; triangles without a run are dropped."""
 
 from __future__ import annotations

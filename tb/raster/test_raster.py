@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_raster: edges to runs, for all kinds of triangles, with late edges and late credits; a reset in the middle."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_reciprocal: exponent and mantissa, to the bit and in time; the error that is stated, of every mantissa."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_scan: vertices to surfaces and runs with gaps, stalls on either side, and a reset in the middle."""
 
 from __future__ import annotations

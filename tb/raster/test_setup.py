@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_setup: edges, increments, box and vertex 0 of every triangle that is drawn; the others are told."""
 
 from __future__ import annotations

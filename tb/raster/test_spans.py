@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_spans: vertices to spans, every bit of every packet; bad input; every pixel of a fan once; gaps and stalls."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_starts: normal and depth at every run, for triangles of all kinds, with gaps, late credits and empty lines."""
 
 from __future__ import annotations

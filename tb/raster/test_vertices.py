@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_vertices: three beats to a triangle, differences and box; faults of numbers and packets; gaps and stalls."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Triangles of every kind: small and large, slivers, far outside, fans; and what a stream of them must give."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mesh files that must be refused: every format, every way to be damaged that we could think of.
 
 `bad_meshes` yields names and contents; `plant` writes them into a folder, beside things that are no files at all,

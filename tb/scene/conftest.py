@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random numbers that the run's seed reproduces."""
 
 import numpy as np

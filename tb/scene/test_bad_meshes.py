@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every bad file is refused in one line that names it; sound files, and only those, are read."""
 
 from pathlib import Path

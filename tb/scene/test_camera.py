@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The camera's conventions: which way things turn, what is near, what fits."""
 
 import numpy as np

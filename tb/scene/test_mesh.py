@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes: what the formats say, what is repaired, and the two meshes that need no file."""
 
 import base64

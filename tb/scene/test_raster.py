@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scan conversion: answers worked out by hand, exact coverage, and the z-buffer."""
 
 from collections.abc import Iterator

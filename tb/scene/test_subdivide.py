@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Catmull-Clark and the cutting of polygons, by hand-computed answers."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packets of triangles and runs say of every pixel what the spans say: its place and its normal."""
 
 import numpy as np

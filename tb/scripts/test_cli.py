@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command line: what a frame leaves behind, and one line for everything that cannot be done.
 
 Nearly all of it runs in this process through :func:`scripts.cli.main`; a real process is compared with that at the end.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Documents: every rule about what they mention bites; tables are those of the extract, which follows the reports."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every check of ``make lint`` as a test of its own; the netlists of most points only in ``make test-all``."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The machines' report: every key of every machine, figures that fit together; small frames, without synthesis."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The report on the papers at a small size: its shape, its figures, and numbers that are known by hand."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The products that the golden model counts are those that stand in the netlists of the units."""
 
 from pathlib import Path

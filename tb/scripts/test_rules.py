@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The lint itself: every rule bites on a module that breaks it, and on nothing else."""
 
 import os
@@ -71,6 +72,14 @@ def test_a_good_module_passes(toy: Path) -> None:
 def test_a_point_that_is_accepted_is_told(toy: Path) -> None:
     """A module that forgets its check."""
     assert lint.refused("shade_toy", {"W": 2}) == ["shade_toy[W=2]: accepted, or refused without words"]
+
+
+def test_a_source_without_licence_is_told(tmp_path: Path, monkeypatch) -> None:
+    """Any kind of source; a first line of a script for its interpreter is allowed."""
+    monkeypatch.setattr(lint, "ROOT", tmp_path)
+    (tmp_path / "good.py").write_text(f"#!/bin/sh\n# {lint.LICENCE}\n")
+    (tmp_path / "bad.sv").write_text(f"// shade_bad: y = x.\n//\n// {lint.LICENCE}\n")
+    assert lint.licence() == [f"bad.sv: its first lines do not hold '{lint.LICENCE}'"]
 
 
 @pytest.mark.parametrize(

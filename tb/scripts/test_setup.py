@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Set-up: what is missing is named at once, the lock file is complete, a foreign Verilator is judged."""
 
 import os

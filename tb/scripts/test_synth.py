@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Synthesis: every unit maps to an ECP5, and the figures that the product promises hold.
 
 ``make synth`` measures everything; here one placer seed of the modules with a promise is enough, the margins are wide.

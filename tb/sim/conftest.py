@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Toy modules beside the RTL, and a cache of compiled models of their own."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frames in processes of their own are those of this process, to the bit, whatever happens to the processes."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The core on whole frames: what goes in by hand-computed numbers; injected faults are found, whatever they are."""
 
 from __future__ import annotations

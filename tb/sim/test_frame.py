@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A frame's parts by hand-computed numbers, and faults of the RTL from its outputs into report and picture."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``sim.load``: what it accepts, what it measures, what it tells when something is wrong, and what it compiles."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The yardstick over the head: every pixel the golden model's to the bit, and close to the original model's light."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Assertions in the RTL: each stops the simulation when its rule is broken, and its name is told."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_credit: as many takes as credits, one more for each that is given back; some_o and soon_o in time."""
 
 import random

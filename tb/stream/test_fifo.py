@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_fifo: words come out in the order in which they went in, none lost, doubled or altered."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_stable: a stream that keeps to the rule goes on for ever; tb/stream/test_assert.py breaks it."""
 
 import random

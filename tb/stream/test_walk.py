@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_walk: items in, so many steps out, a credit each, no bubble."""
 
 import random

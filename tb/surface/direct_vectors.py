@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Lobes, lights, triangles and packets for the direct form."""
 
 import numpy as np

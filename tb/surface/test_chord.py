@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_chord: to the bit of golden.direct.chord, near the chords, on every clock."""
 
 import numpy as np

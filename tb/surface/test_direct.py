@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct: packets in, pixels out, to the bit of golden.direct.direct; faults, stalls, frames, their error."""
 
 import numpy as np

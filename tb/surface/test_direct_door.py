@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct_door: packets taken apart: vectors, runs, entries of the table; packets cut short."""
 
 import cocotb

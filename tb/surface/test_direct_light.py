@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct_light: to the bit of golden.direct.light, near exact values, on every clock."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct_line: moves and coefficients in, starts out, to the bit of golden.direct.step."""
 
 import cocotb

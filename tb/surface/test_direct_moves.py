@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct_moves: runs in, moves out; faulty ones are told and move nothing."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct_run: a run in, the scalars of its pixels out, one a clock."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_direct_setup: vectors in, coefficients out, to the bit of golden.direct.setup, with pauses on both sides."""
 
 import numpy as np

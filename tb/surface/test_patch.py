@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """shade_patch and its parts: triangles in, pixels out, to the bit of golden.patch, however either side pauses."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Triangles for the benches of patches: random ones of all sizes, as scan conversion finds them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every claim of the papers against what this project measures, and their figures drawn again: ``make papers``.
 
     build/papers.json   [{paper, claim, claimed, measured, holds, relation, unit, kind, figure, note}]

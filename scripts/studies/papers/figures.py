@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The look of the figures: one palette, one style, no state of a plotting library that outlives a figure."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The lobe out of the RTL, over every 17-bit cosine."""
 
 from __future__ import annotations

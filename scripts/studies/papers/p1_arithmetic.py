@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P1, section IV, the arithmetic: a third by shifts and adds, the coefficients, the evaluator (Figs. 7, 8, 9)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P1, section IV, the adaptive method on a face: error, cost, and where which degree is used (Figs. 10, 11)."""
 
 from __future__ import annotations

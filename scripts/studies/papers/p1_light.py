@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P1, section III: the lobes of Cook-Torrance and Ward as one 4th, 8th or 16th power (Figs. 2 to 5)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P1, section IV, polynomials along a raster line against the light that they stand for."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P2: the error of normals left as they are, its polynomials, and triangles whose normals may be left so."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P3: the 16th power for cos^n (Figs. 3, 4), and the scales with which a lobe conserves energy (Table 1)."""
 
 from __future__ import annotations

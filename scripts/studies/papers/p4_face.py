@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P4, a face: every normal of its variants from the RTL, what they cost, and polynomials on midpoint nodes."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paper P4, vectors one by one: increments, metrics, midpoints, and the methods that both P2 and P4 compare with."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The default head, scan-converted, on which methods of shading are compared, their light in float64."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // yardstick_beckmann: what shade_lobe stands for, evaluated directly: the distribution of Cook and Torrance relative to
 // its peak, or, with WARD = 1, Ward's exponential alone.
 //

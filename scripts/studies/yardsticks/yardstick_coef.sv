@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // yardstick_coef: the coefficients of shade_coef (node set left, refined formulas, degree 3, 2, 1 or 0) written as in a
 // program, with `*` and `/ 3`, in one step between two registers. The area and clock rate of shade_coef are measured
 // against it.

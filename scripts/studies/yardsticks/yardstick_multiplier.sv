@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // yardstick_multiplier: p = a b, 18 x 18 bits signed, operands and product registered: the fastest that the flow makes
 // of a multiplication. The clock rate of an evaluator is measured against it.
 module yardstick_multiplier (

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mesh files: one reader a format, from bytes to points, polygons and normals, and what all of them must satisfy."""
 
 from __future__ import annotations

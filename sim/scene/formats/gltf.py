@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """glTF 2, a JSON tree with numbers in buffers, and its binary container GLB."""
 
 from __future__ import annotations

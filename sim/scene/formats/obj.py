@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """OBJ: text lines, ``v`` and ``vn`` for points and normals, ``f`` for faces of any number of corners."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """OFF: text, a line of counts, then one line for each point and each face."""
 
 from __future__ import annotations

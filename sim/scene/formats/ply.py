@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """PLY: a header that describes rows of numbers, then the rows, as text or binary."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """STL: 50 bytes for each triangle behind a header of 84, or text."""
 
 from __future__ import annotations

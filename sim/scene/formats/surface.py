@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the readers of all formats share: what they return, how they refuse, how text becomes numbers."""
 
 from __future__ import annotations

@@ -267,10 +267,10 @@ def line_errors(count: ArrayLike, variant: ArrayLike, threshold: ArrayLike) -> t
     return m_error & ((variant == k.VARIANT_V1) | (variant == k.VARIANT_V2)), threshold_error
 
 
-def pack_lines(
+def pack_spans(
     n: ArrayLike, g: ArrayLike, count: ArrayLike, cosine: ArrayLike, tag: ArrayLike = 0, flat: ArrayLike = 0
 ) -> np.ndarray:
-    """Lines as beats of ``s_axis_line_tdata``, or ``s_axis_span_tdata``: (S, 8) uint32. Layout: golden.contract."""
+    """Spans as beats of ``s_axis_line_tdata``, or ``s_axis_span_tdata``: (S, 8) uint32. Layout: golden.types."""
     parts = {
         f"{name}.{axis}": v
         for name, rows in (("normal", n), ("increment", g))

@@ -2,7 +2,7 @@
 """The packets of the streams as data: the one source for ``docs/interface.md``; their fields are those of ``types``.
 
 One packet is one beat of an AXI4-Stream, but for a triangle, which is four, followed by its runs. ``types.pack`` makes
-beats, ``golden.normal.pack_lines`` and ``golden.poly.pack_spans`` for lines and spans.
+beats, ``golden.normal.pack_spans`` and ``golden.poly.pack_records`` for spans and records.
 """
 
 from __future__ import annotations

@@ -186,10 +186,10 @@ def poly_span(
     return saturate(value, k.PIXEL_W), span
 
 
-def pack_spans(
+def pack_records(
     nodes: ArrayLike, degree: ArrayLike, count: ArrayLike, tag: ArrayLike = 0, more: ArrayLike = 0
 ) -> np.ndarray:
-    """Spans as beats of ``s_axis_span_tdata``: (S, 6) uint32, least significant word first. Layout: golden.contract.
+    """Records as beats of ``s_axis_span_tdata``: (S, 6) uint32, least significant word first. Layout: golden.types.
 
     ``more``: 1 where the span goes on in the next beat; its last pixel is not marked as the last.
     """

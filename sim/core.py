@@ -18,7 +18,7 @@ from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import core as golden
 from polyshade.golden import registers
-from polyshade.golden.normal import pack_lines
+from polyshade.golden.normal import pack_spans
 from polyshade.golden.reference.light import dot, unit
 from polyshade.sim.scene.raster import Spans, portions
 
@@ -65,7 +65,7 @@ class Lines:
     @property
     def beats(self) -> NDArray[np.uint32]:
         """(S, 8): ``s_axis_span_tdata``."""
-        return pack_lines(self.n, self.g, self.count, self.cosine, self.tag, self.flat)
+        return pack_spans(self.n, self.g, self.count, self.cosine, self.tag, self.flat)
 
 
 def quantize(value: ArrayLike) -> Ints:

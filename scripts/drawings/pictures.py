@@ -24,7 +24,7 @@ from PIL import Image
 from polyshade.golden import contract as k
 from polyshade.golden import poly
 from polyshade.golden.material import FORMS, Material, planner_registers, registers
-from polyshade.golden.normal import pack_lines
+from polyshade.golden.normal import pack_spans
 from polyshade.golden.registers import pack
 from polyshade.scripts.drawings import svg, waves
 from polyshade.scripts.studies import gallery
@@ -192,7 +192,7 @@ def timing_core(path: Path) -> None:
     surface = Material(shininess=128)
     n, g = np.array([[-0.1, 0, 1], [0.2, 0.3, 0.9], [0.4, 0, 0.9]]), np.array([[0.08, 0, 0]] * 3)
     n, g = (np.rint(part * (1 << k.STEP_F)).astype(int) for part in (n, g))
-    beats = pack_lines(n, g, [5, 1, 3], ONE, [7, 8, 9])
+    beats = pack_spans(n, g, [5, 1, 3], ONE, [7, 8, 9])
     words = registers(surface, (0.3, 0.6, 0.8)) | planner_registers(surface)
     span, pixel = "s_axis_span_t", "m_axis_pixel_t"
     names = [span + name for name in ("valid", "ready", "data")]
@@ -228,7 +228,7 @@ def timing_poly_span(path: Path) -> None:
     nodes = np.zeros((3, k.CHANNELS, k.NODE_COUNT))
     nodes[0, 0], nodes[1, 0, :2], nodes[2, 0, :3] = (0.20, 0.32, 0.48, 0.75), (0.90, 0.85), (0.50, 0.70, 0.40)
     count, degree, tag = np.array([5, 2, 3]), np.array([3, 0, 2]), np.array([7, 8, 9])
-    beats = poly.pack_spans(np.rint(nodes * ONE).astype(int), degree, count, tag)
+    beats = poly.pack_records(np.rint(nodes * ONE).astype(int), degree, count, tag)
     span, pixel = "s_axis_span_t", "m_axis_pixel_t"
     names = [span + "valid", span + "ready", span + "data", "valid", "t"]
     names += [pixel + name for name in ("valid", "ready", "data", "user", "last")]

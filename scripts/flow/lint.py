@@ -219,7 +219,8 @@ RATCHETS = {
 
 def ratchets() -> list[str]:
     """Faults of what there is too much of, with the number that is allowed."""
-    counts = counted([path.read_text() for path in modules().values() if path.exists()])
+    header = f"// {LICENCE}\n"
+    counts = counted([path.read_text().removeprefix(header) for path in modules().values() if path.exists()])
     return [f"{name}: {counts[name]:g}, allowed {limit}" for name, limit in RATCHETS.items() if counts[name] > limit]
 
 

@@ -75,7 +75,7 @@ def main() -> None:
     spans = scene.spans
     records = plan.plan(spans.count, scene.kappa)
     nodes, _ = scene.node_light(records)
-    beats = poly.pack_spans(nodes, records.degree, records.count)
+    beats = poly.pack_records(nodes, records.degree, records.count)
     pixels = spans.pixels
 
     def model(evaluator: int) -> Callable[[], object]:

@@ -31,7 +31,7 @@ def check_poly_span(
     degree[0], count[0] = k.DEGREE_LINEAR, 3  # its first pixel measures the latency
     tag, more = rng.integers(0, 1 << k.TAG_W, spans), rng.integers(0, 2, spans)
 
-    beats = poly.pack_spans(nodes, degree, count, tag, more)
+    beats = poly.pack_records(nodes, degree, count, tag, more)
     model = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=FORMS[form])
     run = model.run(s_axis_span_tdata=beats, in_gap=in_gap, out_stall=out_stall, seed=seed)
     pixels, owner = poly.poly_span(nodes, degree, count, evaluator=evaluator, form=FORMS[form])
@@ -90,7 +90,7 @@ def check_pixel_normals(
 
     model = sim.load("shade_pixel_normals")
     run = model.run(
-        s_axis_line_tdata=normal.pack_lines(normals, steps, count, cosine, tag), variant_i=variant,
+        s_axis_line_tdata=normal.pack_spans(normals, steps, count, cosine, tag), variant_i=variant,
         threshold_i=threshold, in_gap=in_gap, out_stall=out_stall, seed=seed,
     )  # fmt: skip
     golden, owner = normal.pixel_normals(normals, steps, count, cosine, variant, threshold)

@@ -7,7 +7,7 @@ import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden.core import collect
 from polyshade.golden.plan import node_walk
-from polyshade.golden.poly import pack_spans
+from polyshade.golden.poly import pack_records
 from polyshade.golden.types import INTENSITY, PLACE, whole
 
 from tb.bench import TRAFFIC, Bench, checked, patterns
@@ -33,8 +33,8 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
     tag = bench.rng.integers(0, 1 << k.TAG_W, len(nodes.span))
     last = np.append(np.diff(of), 1) != 0
     starts = [*np.flatnonzero(np.append(1, np.diff(nodes.span[of]))).tolist(), rows]
-    expected = pack_spans(collect(nodes, light), nodes.degree, nodes.count, tag, nodes.more)
-    used = pack_spans(used_slots(nodes.degree, nodes.count), 0, 0)
+    expected = pack_records(collect(nodes, light), nodes.degree, nodes.count, tag, nodes.more)
+    used = pack_records(used_slots(nodes.degree, nodes.count), 0, 0)
     beside = (1 << k.SPAN_DATA_W) - (1 << k.SPAN_COUNT_LSB)
 
     record = {name: getattr(nodes, name)[of] for name in ("count", "more", "degree", "log2")} | {"tag": tag[of]}

@@ -10,7 +10,7 @@ from polyshade.golden import types
 from polyshade.golden.fixed import ONE
 from polyshade.golden.material import MODELS, Material, colour_registers, planner_registers
 from polyshade.golden.material import registers as material_registers
-from polyshade.golden.normal import pack_lines
+from polyshade.golden.normal import pack_spans
 from polyshade.golden.registers import draw as named
 
 from tb.bench import Bench
@@ -32,7 +32,7 @@ class Spans:
 
     def words(self) -> list[tuple[int]]:
         """What a source sends as ``s_axis_span_tdata``."""
-        beats = pack_lines(self.normal, self.step, self.count, self.cosine, self.tag, self.flat)
+        beats = pack_spans(self.normal, self.step, self.count, self.cosine, self.tag, self.flat)
         return [(number(beat),) for beat in beats]
 
     @property

@@ -4,9 +4,9 @@
 import numpy as np
 import pytest
 from polyshade.golden import contract as k
-from polyshade.golden.normal import pack_lines
+from polyshade.golden.normal import pack_spans
 from polyshade.golden.packets import PACKETS
-from polyshade.golden.poly import pack_spans
+from polyshade.golden.poly import pack_records
 from polyshade.golden.types import Field
 
 
@@ -17,12 +17,12 @@ def whole(words: np.ndarray) -> int:
 
 def line(values: dict[str, int]) -> np.ndarray:
     vectors = [[[values[f"{name}.{axis}"] for axis in "xyz"]] for name in ("normal", "increment")]
-    return pack_lines(*vectors, *([values[name]] for name in ("count", "cosine", "tag", "flat")))[0]
+    return pack_spans(*vectors, *([values[name]] for name in ("count", "cosine", "tag", "flat")))[0]
 
 
 def span(values: dict[str, int]) -> np.ndarray:
     nodes = [[[values[f"{c}.n{i}"] for i in range(k.NODE_COUNT)] for c in ("diffuse", "specular")]]
-    return pack_spans(nodes, *([values[f"head.{name}"]] for name in ("degree", "count", "tag", "more")))[0]
+    return pack_records(nodes, *([values[f"head.{name}"]] for name in ("degree", "count", "tag", "more")))[0]
 
 
 @pytest.mark.parametrize("name, pack", [("LINE", line), ("SPAN", span)])

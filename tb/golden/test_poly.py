@@ -285,11 +285,11 @@ def test_nodes_are_pixels() -> None:
         assert np.array_equal(at_nodes[..., 0], nodes[..., 0])
 
 
-def test_pack_spans() -> None:
+def test_pack_records() -> None:
     """Field by field into one number of 192 bits, as the contract lays it out."""
     nodes = np.array([signed(k.INTENSITY_W, 80)]).reshape(10, k.CHANNELS, k.NODE_COUNT)
     degree, count, tag = np.arange(10) % 4, RNG.integers(0, 1 << k.COUNT_W, 10), RNG.integers(0, 1 << k.TAG_W, 10)
-    beats = poly.pack_spans(nodes, degree, count, tag)
+    beats = poly.pack_records(nodes, degree, count, tag)
     assert (beats.dtype, beats.shape) == (np.uint32, (10, 6))
     for row, beat in enumerate(beats):
         number = sum(int(word) << 32 * i for i, word in enumerate(beat))
@@ -301,5 +301,5 @@ def test_pack_spans() -> None:
 
 def test_nothing_to_pack() -> None:
     none = np.zeros(0, int)
-    assert poly.pack_spans(np.zeros((0, 2, 4), int), none, none, none).shape == (0, 6)
+    assert poly.pack_records(np.zeros((0, 2, 4), int), none, none, none).shape == (0, 6)
     assert poly.poly_span(np.zeros((0, 2, 4), int), none, none)[0].shape == (0, 2)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cocotb
 import numpy as np
 from polyshade.golden import contract as k
-from polyshade.golden.normal import pack_lines, pixel_normals
+from polyshade.golden.normal import pack_spans, pixel_normals
 
 from tb.bench import PRESSURE, Bench, Sink, Source, checked, no_path
 from tb.runner import simulate
@@ -33,7 +33,7 @@ class Lines:
 
     def words(self) -> list[tuple[int, int, int]]:
         """What a source sends: beat, variant, threshold."""
-        beats = pack_lines(self.normal, self.step, self.count, self.cosine, self.tag)
+        beats = pack_spans(self.normal, self.step, self.count, self.cosine, self.tag)
         whole = [sum(int(word) << 32 * i for i, word in enumerate(beat)) for beat in beats]
         threshold = self.threshold & ((1 << k.INTENSITY_W) - 1)
         return list(zip(whole, self.variant.tolist(), threshold.tolist(), strict=True))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from polyshade.golden import contract as k
-from polyshade.golden.poly import pack_spans
+from polyshade.golden.poly import pack_records
 from polyshade.golden.types import RECORD
 
 from tb.bench import Bench
@@ -37,7 +37,7 @@ class Spans:
 
     def beats(self) -> list[tuple[int]]:
         """What stands at s_axis_span_tdata, a beat a span; bits without a meaning are random."""
-        packed = _beats(pack_spans(self.nodes, self.degree, self.count, self.tag, self.more))
+        packed = _beats(pack_records(self.nodes, self.degree, self.count, self.tag, self.more))
         return [(beat | random.getrandbits(k.SPAN_DATA_W) & ~USED,) for beat in packed]
 
     def texts(self) -> list[str]:

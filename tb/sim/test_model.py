@@ -145,7 +145,7 @@ def spans(count: int = 200) -> tuple[np.ndarray, np.ndarray]:
     nodes = RNG.integers(0, 1 << k.INTENSITY_F, (count, k.CHANNELS, k.NODE_COUNT))
     degree, pixels = RNG.integers(1, 4, count), RNG.integers(1, 20, count)
     golden, _ = poly.poly_span(nodes, degree, pixels)
-    return poly.pack_spans(nodes, degree, pixels), golden[:, 0] | golden[:, 1] << k.PIXEL_W
+    return poly.pack_records(nodes, degree, pixels), golden[:, 0] | golden[:, 1] << k.PIXEL_W
 
 
 def test_doctest() -> None:

@@ -197,7 +197,7 @@ def arc(half_angle: float) -> Callable[[np.ndarray], np.ndarray]:
 def run_records(records: plan.Records, nodes: np.ndarray, form: int) -> np.ndarray:
     """Intensities that ``shade_poly_span`` gives for records with intensities (R, 4) at their nodes."""
     both = np.rint(np.repeat(nodes[:, None], k.CHANNELS, axis=1) * ONE).astype(int)
-    beats = poly.pack_spans(both, records.degree, records.count)
+    beats = poly.pack_records(both, records.degree, records.count)
     run = sim.load("shade_poly_span", EVALUATOR=k.EVALUATOR_HORNER, FORM=form).run(s_axis_span_tdata=beats)
     return (run.m_axis_pixel_tdata & 0xFFFF) / ONE
 

@@ -298,7 +298,7 @@ def shade_nodes(scene: View, records: plan.Records, form: int | None) -> dict:
         vectors = np.where((records.degree == k.DEGREE_DIRECT)[:, None, None], vectors, inner)
     vectors = vectors / (1 << k.INTENSITY_F)
     intensity = scene.light(vectors, as_given=True)
-    beats = poly.pack_spans(np.moveaxis(quantize(intensity), -1, 1), records.degree, records.count)
+    beats = poly.pack_records(np.moveaxis(quantize(intensity), -1, 1), records.degree, records.count)
     data = sim.load("shade_poly_span", EVALUATOR=k.EVALUATOR_HORNER).run(s_axis_span_tdata=beats).m_axis_pixel_tdata
     pixels = np.stack([data & 0xFFFF, data >> k.PIXEL_W], axis=1) / frame.ONE
     return frame.errors(pixels, scene.exact, scene.visible)

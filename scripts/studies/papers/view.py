@@ -65,7 +65,7 @@ class View:
     def shade(self, records: plan.Records, form: int = k.FORM_REFINED) -> tuple[dict, float]:
         """Errors (``sim.frame.errors``) of a plan's pixels out of the RTL, and its light evaluations a pixel."""
         nodes, evaluations = self.node_light(records)
-        beats = poly.pack_spans(nodes, records.degree, records.count)
+        beats = poly.pack_records(nodes, records.degree, records.count)
         model = sim.load("shade_poly_span", EVALUATOR=k.EVALUATOR_HORNER, FORM=form)
         data = model.run(s_axis_span_tdata=beats).m_axis_pixel_tdata
         intensity = np.stack([data & 0xFFFF, data >> k.PIXEL_W], axis=1) / frame.ONE

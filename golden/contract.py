@@ -192,16 +192,16 @@ DIRECT_FIFO_LOG2 = 6  # pixels that can be held back: more than the latency
 EXCESS_W = 10  # |H| - 1, in units of 2^-24
 
 # ---- packets (AXI4-Stream, one beat each) ----------------------------------------------------------------------
-SPAN_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
-SPAN_COUNT_LSB = 144  # pixels of the span
-SPAN_MORE = 157  # the span goes on in the next record: no end of it after this one
-SPAN_DEGREE_LSB = 158  # 0 direct, 1 linear, 2 quadratic, 3 cubic
-SPAN_TAG_LSB = 160  # given back with every pixel
-LINE_DATA_W = 256  # words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
-LINE_COUNT_LSB = 192  # normals of the line
-LINE_TAG_LSB = 208
-LINE_COS_LSB = 224  # cosine between the line's end normals, S1.16, for d1a
-LINE_FLAT = 242  # the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+RECORD_DATA_W = 192  # node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
+RECORD_COUNT_LSB = 144  # pixels of the span
+RECORD_MORE = 157  # the span goes on in the next record: no end of it after this one
+RECORD_DEGREE_LSB = 158  # 0 direct, 1 linear, 2 quadratic, 3 cubic
+RECORD_TAG_LSB = 160  # given back with every pixel
+SPAN_DATA_W = 256  # words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
+SPAN_COUNT_LSB = 192  # normals of the line
+SPAN_TAG_LSB = 208
+SPAN_COS_LSB = 224  # cosine between the line's end normals, S1.16, for d1a
+SPAN_FLAT = 242  # the triangle passed P2's criterion: its normals need no normalizing in diffuse light
 SURFACE_DATA_W = 64  # a packet: a triangle in four beats, then its runs, a beat each, tlast with the last
 TRIANGLE_BEATS = 4  # box; normal; increment per column; increment per line
 TRIANGLE_DATA_W = 256  # the first beat in the lowest bits

@@ -33,8 +33,8 @@ class Packet:
 
 
 PACKETS = {
-    "LINE": Packet("s_axis_span of shade_core, s_axis_line of shade_pixel_normals", k.LINE_DATA_W, SPAN),
-    "SPAN": Packet("s_axis_span of shade_poly_span", k.SPAN_DATA_W, RECORD),
+    "SPAN": Packet("s_axis_span of shade_core, s_axis_line of shade_pixel_normals", k.SPAN_DATA_W, SPAN),
+    "RECORD": Packet("s_axis_span of shade_poly_span", k.RECORD_DATA_W, RECORD),
     "VERTEX": Packet(
         "s_axis_vertex of shade_scan, shade_spans; three a triangle, tlast with the third", k.VERTEX_DATA_W, VERTEX
     ),

@@ -209,16 +209,16 @@ package shade_pkg;
   localparam int EXCESS_W = 10;  // |H| - 1, in units of 2^-24
 
   // packets (AXI4-Stream, one beat each)
-  localparam int SPAN_DATA_W = 192;  // node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
-  localparam int SPAN_COUNT_LSB = 144;  // pixels of the span
-  localparam int SPAN_MORE = 157;  // the span goes on in the next record: no end of it after this one
-  localparam int SPAN_DEGREE_LSB = 158;  // 0 direct, 1 linear, 2 quadratic, 3 cubic
-  localparam int SPAN_TAG_LSB = 160;  // given back with every pixel
-  localparam int LINE_DATA_W = 256;  // words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
-  localparam int LINE_COUNT_LSB = 192;  // normals of the line
-  localparam int LINE_TAG_LSB = 208;
-  localparam int LINE_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
-  localparam int LINE_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
+  localparam int RECORD_DATA_W = 192;  // node i (0..3) of channel c (0..1) at bit 18 (4 c + i)
+  localparam int RECORD_COUNT_LSB = 144;  // pixels of the span
+  localparam int RECORD_MORE = 157;  // the span goes on in the next record: no end of it after this one
+  localparam int RECORD_DEGREE_LSB = 158;  // 0 direct, 1 linear, 2 quadratic, 3 cubic
+  localparam int RECORD_TAG_LSB = 160;  // given back with every pixel
+  localparam int SPAN_DATA_W = 256;  // words of 32 bits: normal x, y, z and increment x, y, z, S2.29 each
+  localparam int SPAN_COUNT_LSB = 192;  // normals of the line
+  localparam int SPAN_TAG_LSB = 208;
+  localparam int SPAN_COS_LSB = 224;  // cosine between the line's end normals, S1.16, for d1a
+  localparam int SPAN_FLAT = 242;  // the triangle passed P2's criterion: its normals need no normalizing in diffuse light
   localparam int SURFACE_DATA_W = 64;  // a packet: a triangle in four beats, then its runs, a beat each, tlast with the last
   localparam int TRIANGLE_BEATS = 4;  // box; normal; increment per column; increment per line
   localparam int TRIANGLE_DATA_W = 256;  // the first beat in the lowest bits

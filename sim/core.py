@@ -25,7 +25,7 @@ from polyshade.sim.scene.raster import Spans, portions
 Ints = NDArray[np.int64]
 TAGS = 1 << k.TAG_W
 OFFSETS = {register.name: register.offset for register in registers.every()}
-WHOLE = {"s_axis_span_tkeep": (1 << k.LINE_DATA_W // 8) - 1, "s_axis_span_tlast": 1}  # beside a packet's data
+WHOLE = {"s_axis_span_tkeep": (1 << k.SPAN_DATA_W // 8) - 1, "s_axis_span_tlast": 1}  # beside a packet's data
 COUNTERS = [register.name for register in registers.GROUPS["Counters"]]
 
 

@@ -6,7 +6,7 @@
 //                                   ▲      └─▶ shade_tally ─┐
 //   s_axil ─▶ shade_registers ◀─────┴───────────────────────┘
 //
-//   s_axis_span   one beat a packet (tlast = 1, all of tkeep): LINE packet, see rtl/README.md
+//   s_axis_span   one beat a packet (tlast = 1, all of tkeep): SPAN packet, see rtl/README.md
 //   m_axis_pixel  LANES AXI4-Streams side by side, slice i of every port is stream i: tdata {specular, diffuse} U0.16,
 //                 COLOUR = 1: {blue, green, red} or {0, specular, diffuse} by CONTROL.colour; tuser = tag; tlast = span's last
 //   s_axil        AXI4-Lite, see docs/registers.md; settings can be written while no span is inside, and none enters
@@ -36,8 +36,8 @@ module shade_core #(
   input  logic                                rst_i,
   input  logic                                s_axis_span_tvalid,
   output logic                                s_axis_span_tready,
-  input  logic [  shade_pkg::LINE_DATA_W-1:0] s_axis_span_tdata,
-  input  logic [shade_pkg::LINE_DATA_W/8-1:0] s_axis_span_tkeep,
+  input  logic [  shade_pkg::SPAN_DATA_W-1:0] s_axis_span_tdata,
+  input  logic [shade_pkg::SPAN_DATA_W/8-1:0] s_axis_span_tkeep,
   input  logic                                s_axis_span_tlast,
   output logic [                   LANES-1:0] m_axis_pixel_tvalid,
   input  logic [                   LANES-1:0] m_axis_pixel_tready,

@@ -3,7 +3,7 @@
 //
 //   span ─▶ shade_walk ─▶ shade_increment ─▶ shade_normalize ─▶ shade_light ─▶ clamp ─▶ shade_fifo ─▶ m_axis_pixel
 //
-//   s_axis_span    LINE packet: normal and increment, S2.29; 1 .. 4096 pixels; tag
+//   s_axis_span    SPAN packet: normal and increment, S2.29; 1 .. 4096 pixels; tag
 //   m_axis_pixel   tdata = {specular, diffuse}, U0.16; tuser = tag; tlast = last pixel of the span
 //   draw_i         settings of the draw call, material and light, see docs/registers.md; must not change while a span is
 //                  inside
@@ -23,7 +23,7 @@ module shade_phong #(
   input  shade_pkg::draw_t                   draw_i,
   input  logic                               s_axis_span_tvalid,
   output logic                               s_axis_span_tready,
-  input  logic [ shade_pkg::LINE_DATA_W-1:0] s_axis_span_tdata,
+  input  logic [ shade_pkg::SPAN_DATA_W-1:0] s_axis_span_tdata,
   output logic                               m_axis_pixel_tvalid,
   input  logic                               m_axis_pixel_tready,
   output logic [shade_pkg::PIXEL_DATA_W-1:0] m_axis_pixel_tdata,
@@ -34,13 +34,13 @@ module shade_phong #(
   localparam int STEP_W = shade_pkg::STEP_W;
   localparam int COUNT_W = shade_pkg::COUNT_W;
   localparam int TAG_W = shade_pkg::TAG_W;
-  localparam int LINE_W = shade_pkg::LINE_COUNT_LSB;
+  localparam int LINE_W = shade_pkg::SPAN_COUNT_LSB;
   localparam int FIFO_LOG2 = shade_pkg::PHONG_FIFO_LOG2;
 
   // ---- spans ---------------------------------------------------------------------------------------------------
   logic [COUNT_W-1:0] count;
   logic load, issue, first, last, credit;
-  assign count = s_axis_span_tdata[shade_pkg::LINE_COUNT_LSB+:COUNT_W];
+  assign count = s_axis_span_tdata[shade_pkg::SPAN_COUNT_LSB+:COUNT_W];
   shade_walk #(.CREDIT_LOG2(FIFO_LOG2)) u_walk (
     .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(count),
     .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first), .last_o(last)
@@ -51,7 +51,7 @@ module shade_phong #(
   always_ff @(posedge clk_i) begin
     if (load) begin
       line_q <= s_axis_span_tdata[LINE_W-1:0];
-      tag_q  <= s_axis_span_tdata[shade_pkg::LINE_TAG_LSB+:TAG_W];
+      tag_q  <= s_axis_span_tdata[shade_pkg::SPAN_TAG_LSB+:TAG_W];
     end
   end
 

@@ -13,7 +13,7 @@
 // An odd pixel steps two increments and normalizes its right neighbour; the next pixel, even, has it already. So the
 // normalizer works on every other clock, and the right neighbour is there whatever the gaps.
 //
-//   s_axis_line    normal and increment, S2.29; pixels at LINE_COUNT_LSB, 1 .. 4096; tag; cosine of the ends, S1.16
+//   s_axis_line    normal and increment, S2.29; pixels at SPAN_COUNT_LSB, 1 .. 4096; tag; cosine of the ends, S1.16
 //   m_axis_normal  tdata = x, y, z, S1.16, at bit 0, 18, 36; tuser = tag; tlast = last of the line
 //   variant_i, threshold_i  taken with each line; the threshold is S1.16 in [0, 1]
 //
@@ -30,7 +30,7 @@ module shade_pixel_normals (
   input  logic signed [shade_pkg::INTENSITY_W-1:0] threshold_i,
   input  logic                                     s_axis_line_tvalid,
   output logic                                     s_axis_line_tready,
-  input  logic        [shade_pkg::LINE_DATA_W-1:0] s_axis_line_tdata,
+  input  logic        [shade_pkg::SPAN_DATA_W-1:0] s_axis_line_tdata,
   output logic                                     m_axis_normal_tvalid,
   input  logic                                     m_axis_normal_tready,
   output logic        [shade_pkg::NORMAL_DATA_W-1:0] m_axis_normal_tdata,

@@ -7,7 +7,7 @@
 //
 //   s_axis_span   AXI4-Stream, one beat a span: nodes of both channels, degree, pixel count, tag (see shade_span_walk)
 //   m_axis_pixel  AXI4-Stream, one beat a pixel: tdata = {specular, diffuse}, U0.16 each; tuser = tag; tlast = last pixel
-//                 (of the last beat, where a span comes as several: SPAN_MORE)
+//                 (of the last beat, where a span comes as several: RECORD_MORE)
 //
 // Unclamped inside, so that a terminator puts no kink into a polynomial; clamped to [0, 1 - 2^-16] at the end.
 // EVALUATOR_HORNER: six multipliers a channel. EVALUATOR_FDIFF: none. Spans of at most 2^LOG2_MAX pixels.
@@ -27,7 +27,7 @@ module shade_poly_span #(
   input  logic                               rst_i,
   input  logic                               s_axis_span_tvalid,
   output logic                               s_axis_span_tready,
-  input  logic [ shade_pkg::SPAN_DATA_W-1:0] s_axis_span_tdata,
+  input  logic [ shade_pkg::RECORD_DATA_W-1:0] s_axis_span_tdata,
   output logic                               m_axis_pixel_tvalid,
   input  logic                               m_axis_pixel_tready,
   output logic [shade_pkg::PIXEL_DATA_W-1:0] m_axis_pixel_tdata,

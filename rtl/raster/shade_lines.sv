@@ -15,7 +15,7 @@ module shade_lines (
   input  shade_pkg::walked_t                run_i,
   output logic                              m_axis_span_tvalid,
   input  logic                              m_axis_span_tready,
-  output logic [shade_pkg::LINE_DATA_W-1:0] m_axis_span_tdata,
+  output logic [shade_pkg::SPAN_DATA_W-1:0] m_axis_span_tdata,
   output shade_pkg::spot_t                  m_axis_span_tuser
 );
   localparam int CREDIT_LOG2 = 4;
@@ -45,7 +45,7 @@ module shade_lines (
   assign spot.line     = run.line;
   assign spot.depth    = start.depth;
   assign spot.increase = surface.dcolumn.depth;
-  shade_fifo #(.WIDTH(shade_pkg::LINE_DATA_W + $bits(spot)), .LOG2(CREDIT_LOG2)) u_fifo (
+  shade_fifo #(.WIDTH(shade_pkg::SPAN_DATA_W + $bits(spot)), .LOG2(CREDIT_LOG2)) u_fifo (
     .clk_i, .rst_i, .valid_i(valid), .data_i({spot, span}), .valid_o(m_axis_span_tvalid),
     .ready_i(m_axis_span_tready), .data_o({m_axis_span_tuser, m_axis_span_tdata}), .taken_o(taken)
   );

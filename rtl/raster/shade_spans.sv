@@ -17,7 +17,7 @@ module shade_spans (
   input  logic                                s_axis_vertex_tlast,
   output logic                                m_axis_span_tvalid,
   input  logic                                m_axis_span_tready,
-  output logic [  shade_pkg::LINE_DATA_W-1:0] m_axis_span_tdata,
+  output logic [  shade_pkg::SPAN_DATA_W-1:0] m_axis_span_tdata,
   output shade_pkg::spot_t                    m_axis_span_tuser,
   output logic [                        63:0] error_o,
   output logic [                        15:0] culled_o,

@@ -209,8 +209,8 @@ def timing_core(path: Path) -> None:
     rows = [
         (sent, wave[sent]),
         (span + "ready", wave[span + "ready"]),
-        ("span tdata, pixels", bus(span + "data", sent, lambda data: str(data >> k.LINE_COUNT_LSB & 0x1FFF))),
-        ("span tdata, tag", bus(span + "data", sent, lambda data: str(data >> k.LINE_TAG_LSB & mask))),
+        ("span tdata, pixels", bus(span + "data", sent, lambda data: str(data >> k.SPAN_COUNT_LSB & 0x1FFF))),
+        ("span tdata, tag", bus(span + "data", sent, lambda data: str(data >> k.SPAN_TAG_LSB & mask))),
         (came, wave[came]),
         (pixel + "ready", wave[pixel + "ready"]),
         ("pixel tdata, diffuse", bus(pixel + "data", came, lambda data: f"{(data & 0xFFFF) / ONE:.2f}")),
@@ -239,7 +239,7 @@ def timing_poly_span(path: Path) -> None:
     rows = [
         (span + "valid", wave[span + "valid"]),
         (span + "ready", wave[span + "ready"]),
-        ("span tdata, tag", bus(span + "data", span + "valid", lambda data: str(data >> k.SPAN_TAG_LSB))),
+        ("span tdata, tag", bus(span + "data", span + "valid", lambda data: str(data >> k.RECORD_TAG_LSB))),
         ("t of a token", bus("t", "valid", lambda t: str(Fraction(t, 1 << k.T_F)))),
         (pixel + "valid", given),
         (pixel + "ready", wave[pixel + "ready"]),

@@ -35,7 +35,7 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
     starts = [*np.flatnonzero(np.append(1, np.diff(nodes.span[of]))).tolist(), rows]
     expected = pack_records(collect(nodes, light), nodes.degree, nodes.count, tag, nodes.more)
     used = pack_records(used_slots(nodes.degree, nodes.count), 0, 0)
-    beside = (1 << k.SPAN_DATA_W) - (1 << k.SPAN_COUNT_LSB)
+    beside = (1 << k.RECORD_DATA_W) - (1 << k.RECORD_COUNT_LSB)
 
     record = {name: getattr(nodes, name)[of] for name in ("count", "more", "degree", "log2")} | {"tag": tag[of]}
     place = {"slot": nodes.slot, "shared": nodes.shared, "last": last}
@@ -55,7 +55,7 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
         if due is not None:
             mask = number(used[due]) | beside
             shown = int(bench.dut.record_o.value) & mask
-            bench.equal(shown, number(expected[due]) & mask, f"record {due}: record_o", k.SPAN_DATA_W)
+            bench.equal(shown, number(expected[due]) & mask, f"record {due}: record_o", k.RECORD_DATA_W)
         due = int(of[node]) if sends and last[node] and not in_reset else None
         node = next(start for start in starts if start >= node + sends) if in_reset else node + sends
 

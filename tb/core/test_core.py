@@ -29,7 +29,7 @@ from tb.runner import points, simulate
 OFFSETS = {register.name: register.offset for register in every()}
 NAMES = {offset: name for name, offset in OFFSETS.items()}
 PAYLOAD = ["tdata", "tuser", "tlast"]
-BEAT = k.LINE_DATA_W // 8  # bytes
+BEAT = k.SPAN_DATA_W // 8  # bytes
 SHORT, LONG = 1, 2  # how a packet is torn
 SMALL = {"REFLECT": 0, "DIVIDE": 0}
 
@@ -89,7 +89,7 @@ class Watch:
         if not (int(dut.s_axis_span_tvalid.value) and int(dut.s_axis_span_tready.value)):
             return
         last, keep = int(dut.s_axis_span_tlast.value), int(dut.s_axis_span_tkeep.value)
-        count = int(dut.s_axis_span_tdata.value) >> k.LINE_COUNT_LSB & (1 << k.COUNT_W) - 1
+        count = int(dut.s_axis_span_tdata.value) >> k.SPAN_COUNT_LSB & (1 << k.COUNT_W) - 1
         if last and not self._torn and keep == (1 << BEAT) - 1 and 0 < count <= k.PIXELS_MAX:
             self.inside += 1
         self.taken.append(self.bench.clock)

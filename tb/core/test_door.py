@@ -13,7 +13,7 @@ from tb.core.vectors import set_draw, spans
 from tb.runner import points, simulate
 
 SPAN = "s_axis_span_"
-WHOLE = (1 << k.LINE_DATA_W // 8) - 1
+WHOLE = (1 << k.SPAN_DATA_W // 8) - 1
 V1 = {"path": k.PATH_NORMALS, "variant": k.VARIANT_V1}
 
 
@@ -52,7 +52,7 @@ class Lanes:
             if valid:
                 self.given.append((int(dut.span_o.value), best))
                 self.clocks.append(self.bench.clock)
-                left[best] += self.given[-1][0] >> k.LINE_COUNT_LSB & (1 << k.COUNT_W) - 1
+                left[best] += self.given[-1][0] >> k.SPAN_COUNT_LSB & (1 << k.COUNT_W) - 1
             best = loads.index(min(loads))
             self.told["good"] += int(dut.good_o.value)
             self.told["bad"] += int(dut.bad_o.value)
@@ -78,7 +78,7 @@ async def traffic(bench: Bench, gap: float, ready: float) -> None:
     beats, good = [], []
     kinds = bench.rng.choice(4, 150, p=[0.7, 0.1, 0.1, 0.1]).tolist()
     for (data,), n, how in zip(sent.words(), count.tolist(), kinds, strict=True):
-        more = [(random.getrandbits(k.LINE_DATA_W), WHOLE, i == 2) for i in range(3)] if how == 1 else []
+        more = [(random.getrandbits(k.SPAN_DATA_W), WHOLE, i == 2) for i in range(3)] if how == 1 else []
         beats += [(data, WHOLE ^ (how == 2) << random.randrange(32), int(not more)), *more]
         whole, long = how in (0, 3), n > k.PIXELS_MAX
         if whole and n and not long:
@@ -108,7 +108,7 @@ async def balance(bench: Bench) -> None:
     await bench.tick(3)
     drawn = [0] * lanes.lanes
     for data, lane in lanes.given:
-        drawn[lane] += data >> k.LINE_COUNT_LSB & (1 << k.COUNT_W) - 1
+        drawn[lane] += data >> k.SPAN_COUNT_LSB & (1 << k.COUNT_W) - 1
     bench.equal(sum(drawn), sent.count.sum(), "pixels of all lanes")
     bench.equal(max(drawn) - min(drawn) <= 3 * 64, True, f"pixels of each lane, {drawn}, are about the same")
     await bench.until(lambda: not int(bench.dut.busy_o.value), 5000, "busy_o falls")
@@ -155,7 +155,7 @@ async def reset(bench: Bench) -> None:
     for last in (0, 1):
         lanes.ready = 0.0
         await bench.tick()
-        task = cocotb.start_soon(source.send([(random.getrandbits(k.LINE_DATA_W), WHOLE, last)]))
+        task = cocotb.start_soon(source.send([(random.getrandbits(k.SPAN_DATA_W), WHOLE, last)]))
         await bench.tick(4)
         task.cancel()
         source.withdraw()

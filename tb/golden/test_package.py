@@ -144,9 +144,9 @@ def test_formats_fit() -> None:
 
 def test_fields_of_a_span_do_not_overlap() -> None:
     nodes = [(k.INTENSITY_W * node, k.INTENSITY_W) for node in range(k.CHANNELS * k.NODE_COUNT)]
-    rest = [(k.SPAN_COUNT_LSB, k.COUNT_W), (k.SPAN_DEGREE_LSB, k.DEGREE_W), (k.SPAN_TAG_LSB, k.TAG_W)]
+    rest = [(k.RECORD_COUNT_LSB, k.COUNT_W), (k.RECORD_DEGREE_LSB, k.DEGREE_W), (k.RECORD_TAG_LSB, k.TAG_W)]
     bits = [lsb + bit for lsb, width in nodes + rest for bit in range(width)]
     assert len(bits) == len(set(bits))
-    assert max(bits) < k.SPAN_DATA_W
-    assert k.SPAN_DATA_W % 32 == 0
+    assert max(bits) < k.RECORD_DATA_W
+    assert k.RECORD_DATA_W % 32 == 0
     assert k.PIXEL_DATA_W == 2 * k.PIXEL_W

@@ -15,17 +15,17 @@ def whole(words: np.ndarray) -> int:
     return int.from_bytes(words.astype("<u4").tobytes(), "little")
 
 
-def line(values: dict[str, int]) -> np.ndarray:
+def span(values: dict[str, int]) -> np.ndarray:
     vectors = [[[values[f"{name}.{axis}"] for axis in "xyz"]] for name in ("normal", "increment")]
     return pack_spans(*vectors, *([values[name]] for name in ("count", "cosine", "tag", "flat")))[0]
 
 
-def span(values: dict[str, int]) -> np.ndarray:
+def record(values: dict[str, int]) -> np.ndarray:
     nodes = [[[values[f"{c}.n{i}"] for i in range(k.NODE_COUNT)] for c in ("diffuse", "specular")]]
     return pack_records(nodes, *([values[f"head.{name}"]] for name in ("degree", "count", "tag", "more")))[0]
 
 
-@pytest.mark.parametrize("name, pack", [("LINE", line), ("SPAN", span)])
+@pytest.mark.parametrize("name, pack", [("SPAN", span), ("RECORD", record)])
 def test_every_field_is_where_the_table_says(name: str, pack) -> None:
     log2 = sum((1 << f.width) - 1 << f.lsb for f in PACKETS[name].fields if f.name == "head.log2")
     fields = [f for f in PACKETS[name].fields if f.name != "head.log2"]
@@ -49,11 +49,11 @@ def test_widths(name: str) -> None:
 def test_where_the_constants_say() -> None:
     """Positions of the contract are those of the structures."""
     found = {packet: {f.name: f.lsb for f in PACKETS[packet].fields} for packet in PACKETS}
-    assert [found["LINE"][n] for n in ("count", "tag", "cosine", "flat")] == [
-        k.LINE_COUNT_LSB, k.LINE_TAG_LSB, k.LINE_COS_LSB, k.LINE_FLAT,
+    assert [found["SPAN"][n] for n in ("count", "tag", "cosine", "flat")] == [
+        k.SPAN_COUNT_LSB, k.SPAN_TAG_LSB, k.SPAN_COS_LSB, k.SPAN_FLAT,
     ]  # fmt: skip
-    assert [found["SPAN"][f"head.{n}"] for n in ("count", "more", "degree", "tag")] == [
-        k.SPAN_COUNT_LSB, k.SPAN_MORE, k.SPAN_DEGREE_LSB, k.SPAN_TAG_LSB,
+    assert [found["RECORD"][f"head.{n}"] for n in ("count", "more", "degree", "tag")] == [
+        k.RECORD_COUNT_LSB, k.RECORD_MORE, k.RECORD_DEGREE_LSB, k.RECORD_TAG_LSB,
     ]  # fmt: skip
     beats = {"columns": 0, "normal.x": 1, "dcolumn.mantissa.x": 2, "dline.mantissa.x": 3}
     assert {name: found["TRIANGLE"][name] for name in beats} == {n: 64 * beat for n, beat in beats.items()}

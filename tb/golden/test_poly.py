@@ -294,9 +294,9 @@ def test_pack_records() -> None:
     for row, beat in enumerate(beats):
         number = sum(int(word) << 32 * i for i, word in enumerate(beat))
         fields = [int(v) % (1 << k.INTENSITY_W) << k.INTENSITY_W * i for i, v in enumerate(nodes[row].ravel())]
-        fields += [int(count[row]) << k.SPAN_COUNT_LSB, int(degree[row]) << k.SPAN_DEGREE_LSB]
+        fields += [int(count[row]) << k.RECORD_COUNT_LSB, int(degree[row]) << k.RECORD_DEGREE_LSB]
         log2 = int(poly.span_log2(count[row]))
-        assert number == sum(fields) + (int(tag[row]) << k.SPAN_TAG_LSB) + (log2 << k.SPAN_TAG_LSB + k.TAG_W)
+        assert number == sum(fields) + (int(tag[row]) << k.RECORD_TAG_LSB) + (log2 << k.RECORD_TAG_LSB + k.TAG_W)
 
 
 def test_nothing_to_pack() -> None:

@@ -38,7 +38,7 @@ class Spans:
     def beats(self) -> list[tuple[int]]:
         """What stands at s_axis_span_tdata, a beat a span; bits without a meaning are random."""
         packed = _beats(pack_records(self.nodes, self.degree, self.count, self.tag, self.more))
-        return [(beat | random.getrandbits(k.SPAN_DATA_W) & ~USED,) for beat in packed]
+        return [(beat | random.getrandbits(k.RECORD_DATA_W) & ~USED,) for beat in packed]
 
     def texts(self) -> list[str]:
         """Every span in words, for messages: number, degree, pixels, nodes of either channel in hex."""

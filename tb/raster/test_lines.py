@@ -37,6 +37,6 @@ async def packets(bench: Bench, gap: float, stall: float) -> None:
     expected = whole(SPAN, wanted)
     bench.equal(len(sink.words), len(expected), "spans")
     for i, (data, user) in enumerate(sink.words):
-        bench.equal(data, expected[i], f"span {i}", k.LINE_DATA_W)
+        bench.equal(data, expected[i], f"span {i}", k.SPAN_DATA_W)
         spot = fields("spot_t", user)
         bench.equal(all(spot[name] == value[i] for name, value in spots.items()), True, f"place of span {i}")

@@ -799,7 +799,7 @@ def test_a_mismatch(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> 
     compile(code, "again", "exec")
 
     # the input that is told makes the pixel that is told
-    beat = [int(first["input"], 16) >> 32 * word & 0xFFFFFFFF for word in range(contract.LINE_DATA_W // 32)]
+    beat = [int(first["input"], 16) >> 32 * word & 0xFFFFFFFF for word in range(contract.SPAN_DATA_W // 32)]
     settings = frame.Settings()
     run = sim.load("shade_core", **settings.parameters).run(
         s_axis_span_tdata=beat, **core.WHOLE, writes=registers.pack(settings.registers)

@@ -129,7 +129,7 @@ def test_icarus_rules(toy: Path, tmp_path: Path, monkeypatch) -> None:
     ("line", "name"),
     [
         ("assign y_o = x_i[0 +: W];", "indexed part selects"),
-        ("assign y_o = x_i[shade_pkg::LINE_FLAT];", "indexed part selects"),
+        ("assign y_o = x_i[shade_pkg::SPAN_FLAT];", "indexed part selects"),
         ("shade_a u_a (.valid_i(1'b0), .x_i(x_i));", "handshakes"),
         ("shade_a u_a (.x_i(x_i), .valid_o());", "handshakes"),
         ("initial y_q = 1'b0;", "registers with an initial value"),

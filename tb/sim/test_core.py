@@ -54,7 +54,7 @@ def test_flat_lines() -> None:
     three.triangle[:] = 1, 1, 0
     lines = core.Lines.of(three, [False, True])
     assert lines.flat.tolist() == [1, 1, 0]
-    assert (lines.beats[:, -1] >> k.LINE_FLAT % 32 & 1).tolist() == [1, 1, 0]
+    assert (lines.beats[:, -1] >> k.SPAN_FLAT % 32 & 1).tolist() == [1, 1, 0]
 
 
 @pytest.fixture

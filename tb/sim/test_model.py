@@ -601,7 +601,7 @@ def test_ports(span: sim.Model) -> None:
     assert ports["i4_i"] == Port("i4_i", "input", k.INTENSITY_W, True)
     assert ports["b_o"] == Port("b_o", "output", k.COEF_W, True)
     widths = {port.name: port.width for port in span.ports}
-    assert widths["s_axis_span_tdata"] == k.SPAN_DATA_W
+    assert widths["s_axis_span_tdata"] == k.RECORD_DATA_W
     assert widths["m_axis_pixel_tdata"] == k.PIXEL_DATA_W
 
 

@@ -66,7 +66,7 @@ module shade_kappa #(
   end
   always_ff @(posedge clk_i) begin
     g_q1       <= g_i;
-    differs_q1 <= (changes[0] | changes[1] | changes[2]) & ~W'(1);
+    differs_q1 <= (changes[0] | changes[1] | changes[2]) & {{(W - 1) {1'b1}}, 1'b0};
     differs_q2 <= 8'((differs_q1 << {eights, 3'b000}) >> (W - 8));
     front_q3   <= differs_q2[{~twos, 1'b1}];
     eights_q2  <= eights;

@@ -117,6 +117,8 @@ def mirror(module: str, path: Path) -> list[str]:
     faults = []
     if re.findall(r"^\s*module\s+(\w+)", text, re.MULTILINE) != [module]:
         faults.append(f"{_short(path)}: must hold the one module {module}")
+    if cast := re.search(r"[~!]\s*[\w:]+'\(", re.sub(r"//.*", "", text)):
+        faults.append(f"{_short(path)}: {cast[0]}: Yosys' own reader negates the width: put the value into a signal")
     header = "".join(line for line in text.splitlines(True)[: _header_lines(text)])
     if not header.startswith(f"// {module}: "):
         faults.append(f"{_short(path)}: must open with the comment '// {module}: <formula>'")

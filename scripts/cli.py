@@ -313,6 +313,15 @@ def formal(proof: tuple[str, ...]) -> None:
     sys.exit(command.main(list(proof)))
 
 
+@cli.command()
+@click.argument("module", nargs=-1)
+def gate(module: tuple[str, ...]) -> None:
+    """Run the vectors of every unit (or those named) through netlists of FPGA cells; leaves build/gate.json."""
+    from polyshade.scripts.flow import gate as command
+
+    sys.exit(command.main(list(module)))
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; turn every fault of the user into one line and exit status 2."""
     try:

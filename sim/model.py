@@ -9,12 +9,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import operator
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -235,8 +237,11 @@ class Run:
 class Model:
     """A module at a parameter point. Every :meth:`run` starts from reset; what reset leaves alone is random."""
 
-    def __init__(self, module: str, parameters: dict[str, int], *, waves: bool, public: tuple[str, ...] | None = None):
-        library, self.ports = verilate.build(module, parameters, glue, waves=waves, public=public)
+    def __init__(
+        self, module: str, parameters: dict[str, int], *, waves: bool, public: tuple[str, ...] | None = None,
+        netlist: Path | None = None,
+    ):  # fmt: skip
+        library, self.ports = verilate.build(module, parameters, glue, waves=waves, public=public, netlist=netlist)
         self.module, self.parameters, self.waves = module, parameters, waves
         self.interface = interface(self.ports)
         self._library = ctypes.CDLL(str(library))
@@ -415,6 +420,7 @@ class Model:
 
 
 _loaded: dict[object, Model] = {}
+_netlist: Callable[[str, dict[str, int]], Path] | None = None
 
 
 def load(module: str, *, waves: bool | None = None, public: tuple[str, ...] | None = None, **parameters: int) -> Model:
@@ -430,7 +436,19 @@ def load(module: str, *, waves: bool | None = None, public: tuple[str, ...] | No
         except TypeError:
             raise UserError(f"{module}: {name}={value!r}, allowed integers") from None
     waves = os.environ.get("WAVES", "0") not in ("", "0") if waves is None else waves
-    key = (module, tuple(sorted(parameters.items())), waves, public)
+    netlist = _netlist(module, parameters) if _netlist else None
+    key = (module, tuple(sorted(parameters.items())), waves, public, netlist and netlist.read_bytes())
     if key not in _loaded:
-        _loaded[key] = Model(module, parameters, waves=waves, public=public)
+        _loaded[key] = Model(module, parameters, waves=waves, public=public, netlist=netlist)
     return _loaded[key]
+
+
+@contextlib.contextmanager
+def netlists(netlist: Callable[[str, dict[str, int]], Path]) -> Iterator[None]:
+    """Within the block :func:`load` compiles ``netlist(module, parameters)``, a Verilog file, in place of the RTL."""
+    global _netlist
+    before, _netlist = _netlist, netlist
+    try:
+        yield
+    finally:
+        _netlist = before

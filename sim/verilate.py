@@ -229,15 +229,17 @@ def _public(module: str, ports: list[Port], names: Sequence[str]) -> str:
 
 
 def build(
-    module: str, parameters: dict[str, int], glue, *, waves: bool = False, public: Sequence[str] | None = None
-) -> tuple[Path, list[Port]]:
+    module: str, parameters: dict[str, int], glue, *, waves: bool = False, public: Sequence[str] | None = None,
+    netlist: Path | None = None,
+) -> tuple[Path, list[Port]]:  # fmt: skip
     """The shared library of a module and its ports. ``glue(ports)`` gives the C++ that knows their names.
 
     ``public``: cocotb can drive the model, too: its ports and parameters, and inner signals of these names (``*_q``).
-    That makes small models up to a sixth slower.
+    That makes small models up to a sixth slower. ``netlist``: Verilog of the module at these parameters, compiled in
+    place of its sources.
     """
     verilator = tools.verilator()
-    files = reached(module)
+    files = [netlist] if netlist else reached(module)
     own = [(HERE / "harness.cpp").read_bytes(), (HERE / "model.py").read_bytes(), Path(__file__).read_bytes()]
     key = key_of(parameters, [path.read_bytes() for path in files], own, verilator.version, waves, public)
     path = CACHE / f"{module}-{key}"
@@ -248,10 +250,10 @@ def build(
             flags = [*VERILATOR_FLAGS, *(["--trace"] if waves else [])]
             if public is not None:
                 flags += ["--vpi", "public.vlt"]
-                (scratch / "public.vlt").write_text(_public(module, found, [*names, *public]))
+                (scratch / "public.vlt").write_text(_public(module, found, [] if netlist else [*names, *public]))
             run(
                 [verilator.program, *flags, "--top-module", module, "--Mdir", scratch,
-                 *(f"-G{name}={value}" for name, value in parameters.items()), *files],
+                 *(f"-G{name}={value}" for name, value in parameters.items() if not netlist), *files],
                 scratch,
             )  # fmt: skip
             units = "".join(f'#include "{unit.name}"\n' for unit in sorted(scratch.glob("Vdut*.cpp")))

@@ -39,7 +39,8 @@ module shade_fdiff #(
 
   localparam int VALUE_W = COEF_W + shade_pkg::VALUE_GROWTH;
   localparam int FRACTION = 3 * LOG2_MAX;
-  localparam int STATE_W = VALUE_W + FRACTION;
+  // at least one bit more than the longest shift below; what stands above VALUE_W + FRACTION counts for nothing
+  localparam int STATE_W = VALUE_W + FRACTION < 37 ? 37 : VALUE_W + FRACTION;
 
   // Start of a segment. In units of 2^-FRACTION ulp, with e = LOG2_MAX - k:
   //   A h^3 = A 2^(3 e),  B h^2 = B 2^(2 e + LOG2_MAX),  C h = C 2^(e + 2 LOG2_MAX)

@@ -157,6 +157,7 @@ def _fifo(form: str) -> Iterator[Case]:
         k.LATENCY_FIFO,
         bound=0,
         unit_f=0,
+        ordered=True,  # a consumer that stalls: tb/stream/test_fifo.py
     )
 
 

@@ -314,7 +314,7 @@ def test_what_is_planned_is_smooth_enough(model: str, shininess: float) -> None:
     nodes = lit(np.repeat(records.span[:, None], 4, axis=1), records.nodes)  # (R, 4, 2)
     quantized = np.rint(nodes * (1 << k.INTENSITY_F)).astype(np.int64).swapaxes(1, 2)
     pixels, owner = poly.poly_span(quantized, records.degree, records.count)
-    step = records.start[owner] + poly.span_walk(records.degree, records.count)[1]
+    step = records.start[owner] + poly.span_walk(records.count)[1]
     exact = lit(records.span[owner], step).clip(0, 1)
     error = np.abs(pixels / (1 << k.PIXEL_W) - exact)
     assert error[records.degree[owner] == k.DEGREE_LINEAR].max() < 1.1 * T1 / UNIT / 4

@@ -814,7 +814,7 @@ def test_a_mismatch(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> 
 def test_units(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The report of the units has its columns; a unit that differs is told and ends with exit status 1."""
     few = [case for case in cases() if case.module in ("shade_third", "shade_horner_step")]
-    few = [case for case in few if case.parameters.get("WIDTH", 26) in (20, 26)]
+    few = [case for case in few if case.parameters["WIDTH"] in (20, 26, 30)]
     monkeypatch.setattr(units, "cases", lambda: few)
     monkeypatch.setattr(units, "OUT", place / "units.json")
     status, out, err = polyshade("units", "--vectors", "1000")
@@ -835,7 +835,7 @@ def test_units(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(units, "cases", lambda: [broken])
     status, out, err = polyshade("units", "--vectors", "1000")
     assert status == 1
-    assert err.startswith("shade_horner_step/refined: vector 0: s_i=")
+    assert err.startswith("shade_horner_step/refined[WIDTH=30,T_F=16]: vector 0: s_i=")
     assert "expected 0x1 actual 0x" in err
     assert "polyshade.sim.load" in err
 

@@ -730,7 +730,7 @@ def test_waves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert run.y_o.tolist() == [-1, 100]
     text = (tmp_path / "waves" / "shade_third.vcd").read_text()
     names = {line.split()[4] for line in text.splitlines() if line.strip().startswith("$var")}
-    assert {"clk_i", "valid_i", "x_i", "y_o", "sum_q1"} <= names
+    assert {"clk_i", "x_i", "y_o", "sum_q1"} <= names
     steps = [line for line in text.splitlines() if line.startswith("#")]
     assert len(steps) >= 2 * run.clocks
     assert f"b{300:018b} " in text

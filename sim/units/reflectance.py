@@ -332,7 +332,7 @@ def _nodes(form: str) -> Iterator[Case]:
             None, latency, clocks, chunk=chunk, note=note, late=late or {},
             # light of at most 2 falls by 2 n times what x lacks, 1/2 ulp of U2.20: n / 16, 64 at n = 1024; the lobe's
             # 1.2 times the gain of these materials, 16 at most; as much again by H's and V.H's roundings
-            # paper form, Phong: x = 1 - R.V of R's 1.5 ulp in three components, 2.6 of S1.16, in light of 1 that falls by n
+            # paper form, Phong: x = 1 - R.V of R's 1.5 ulp in three components, 2.6 of S1.16; light of 1 falls by n
             # times that
             bound=2700 if (form, note) == ("paper", "phong") else 200 if module == "shade_light_local" else 84,
         )  # fmt: skip

@@ -32,6 +32,9 @@ module shade_third #(
   localparam int GUARD = 3;
   localparam int SUM_W = REFINED ? WIDTH + GUARD + 1 : WIDTH + 6;
   localparam int DROP = REFINED ? GUARD + 2 : 7;
+  // a narrow sum has fewer bits than the shift is long: all that is left of it is its sign
+  localparam int BY_8 = SUM_W > 8 ? 8 : SUM_W - 1;
+  localparam int BY_16 = SUM_W > 16 ? 16 : SUM_W - 1;
 
   logic signed [SUM_W-1:0] x, sum_q1, sum_q2, sum_q3, sum_q4;
   assign x = SUM_W'(x_i);
@@ -40,8 +43,8 @@ module shade_third #(
     always_ff @(posedge clk_i) begin
       sum_q1 <= (x <<< GUARD) + (x <<< (GUARD - 2));
       sum_q2 <= sum_q1 + (sum_q1 >>> 4);
-      sum_q3 <= sum_q2 + (sum_q2 >>> 8);
-      sum_q4 <= sum_q3 + (sum_q3 >>> 16);
+      sum_q3 <= sum_q2 + (sum_q2 >>> BY_8);
+      sum_q4 <= sum_q3 + (sum_q3 >>> BY_16);
     end
   end else begin : g_paper
     logic signed [WIDTH-1:0] x_q1, x_q2;

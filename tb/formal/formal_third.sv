@@ -24,7 +24,7 @@ module formal_third #(
   always_ff @(posedge clk_i) begin
     if (age_q == 4'(LATENCY)) begin
       // The nearest integer, LATENCY_THIRD clocks later.
-      // mutant: sum_q3 <= sum_q2 + (sum_q2 >>> 8) => sum_q3 <= sum_q2 + (sum_q2 >>> 7)
+      // mutant: sum_q3 <= sum_q2 + (sum_q2 >>> BY_8) => sum_q3 <= sum_q2 + (sum_q2 >>> 7)
       nearest : assert (sum >= '0 && sum < (FORM == shade_pkg::FORM_REFINED ? W'(6) : W'(128)));
     end
   end

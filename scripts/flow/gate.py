@@ -112,7 +112,7 @@ endmodule
 
 module DP16KD #(parameter DATA_WIDTH_A = 18, DATA_WIDTH_B = 18, {cross}, {initial}) (
   {", ".join(ports)});
-  // bit i of the array is bit i mod 9 of its byte; widths below 9 use the lower eight
+  // words of 18 bits; a port of 36 takes two of them, the even one below
   reg [17:0] memory [0:1023];
   wire [13:0] ada = {{{bits("ADA", 14)}}};
   wire [13:0] adb = {{{bits("ADB", 14)}}};

@@ -4,7 +4,7 @@
 ``rtl/shade_pkg.sv`` from ``golden/contract.py``, ``golden/registers.py`` and ``golden/types.py``, the tables
 ``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py`` and ``rtl/surface/shade_rho_rom.sv`` from
 ``golden/direct.py``, ``docs/registers.md`` from ``golden/registers.py``, ``docs/interface.md`` from
-``golden/packets.py`` and the contract.
+``golden/packets.py`` and the contract, ``driver/shade_registers.h`` from the registers and packets.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import sys
 from pathlib import Path
 
 from polyshade.golden import contract as k
-from polyshade.golden import direct, fixed, packets, registers, types
+from polyshade.golden import direct, fixed, material, packets, registers, types
+from polyshade.scripts.handoff import registers as forms
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = """\
@@ -216,7 +217,8 @@ An offset without a register is answered `SLVERR` and reads 0. So is a write to 
 nothing changes: a draw call cannot be torn. The one exception is `CONTROL` with `clear` set and its other bits as they
 are read.
 
-Values come from physical parameters by `polyshade.golden.material`, words by `polyshade.golden.registers.pack`:
+Values come from physical parameters by `polyshade.golden.material`, words by `polyshade.golden.registers.pack`; without
+Python by the [C driver](../driver/README.md), whose words are the same:
 
 ```python
 from polyshade.golden.material import Material, colour_registers, planner_registers, registers
@@ -226,6 +228,40 @@ surface = Material("cook-torrance", roughness=0.3)
 words = pack(registers(surface, light=(0.3, 0.6, 0.8)) | planner_registers(surface) | colour_registers(surface))
 ```
 """
+
+FORMULAS = """\
+## Formulas
+
+The viewer is V = (0, 0, 1), infinitely far; x points right, y up. n: shininess; m: roughness; numbers to nearest, ties up.
+
+| register | value |
+|---|---|
+| `LX` `LY` `LZ` | the unit vector L to the light |
+| `HX` `HY` `HZ`, `VH` | H = (L + V) / abs(L + V) and V.H = H.z; all 0 for L = (0, 0, -1) |
+| `SHARPNESS` | n of the cos^n that turns as fast as the highlight, at least 2: lambert 2, phong 4 n, blinn n, schlick sqrt(2) n, cook-torrance and ward 2 / m^2; mantissa in [1, 2) times 2^exponent |
+| `K1` `K2` `XMAX` `power` | the highlight max(0, 1 - k1 x + k2 x^2)^(2^power), x = min(1 - c, xmax), c = N.H or R.V; as the papers print it k1 = n / 16, k2 = 0, xmax = 1, power = 4, where n is 2 / m^2 - 4 for cook-torrance, 2 / m^2 for ward |
+| `shift` | `K1` = k1 / 2^shift, `K2` = k2 / 4^shift, `XMAX` = min(xmax 2^shift, 2 - 2^-16), with the first of 7, 0, 1, .. 6 by which K1 < 2, abs(K2) < 1 and K1 - K2 X < 2; 7 stands for `K1` = 4 k1, `K2` = 4 k2, `XMAX` = xmax |
+| `INV_N` | schlick: 1 / n = mantissa 2^-exponent, exponent = floor(log2 n), mantissa in (1/2, 1] |
+| `GAIN` | exposure times energy scale times Fresnel's factor F(V.H), mantissa in [1, 2) times 2^exponent; 1 for blinn, phong and schlick without scale; 1 / (4 pi m^2) for cook-torrance and ward |
+| `F0` | cook-torrance with a light of every point; else 1 |
+
+F(c) = f0 + (1 - f0)(1 - c)^5, f0 = 1 but for cook-torrance. The refined k1, k2, xmax have the least maximal error; these
+are their words for blinn and phong:
+
+| n | `K1` | `K2` | `XMAX` | `SHARPNESS` of blinn | of phong |
+|---|---|---|---|---|---|
+"""  # noqa: E501
+
+
+def formulas() -> str:
+    """How the words come about, and those of common shininesses."""
+    lines = [FORMULAS.rstrip()]
+    for n in (8, 16, 32, 64, 128, 256, 512, 1024):
+        surfaces = [material.Material(model, n) for model in ("blinn", "phong")]
+        lobe = registers.pack(material.lobe_registers(*surfaces[0].lobe))
+        words = [*lobe.values(), *(w for s in surfaces for w in registers.pack(material.planner_registers(s)).values())]
+        lines.append(f"| {n} | " + " | ".join(f"`{word:#x}`" for word in words) + " |")
+    return "\n".join([*lines, ""])
 
 
 def register_map() -> str:
@@ -246,14 +282,15 @@ def register_map() -> str:
                 )
                 where = " | | "
         lines.append("")
-    return "\n".join(lines)
+    return "\n".join([*lines, formulas()])
 
 
 INTERFACE_HEADER = """\
 # Packets, codes, latencies
 
 Generated from `golden/packets.py` and `golden/contract.py` by `make generate`: change them there. The same
-constants stand in `rtl/shade_pkg.sv`. Every packet is one beat of an AXI4-Stream. `S1.16`: signed, one integer bit, 16
+constants stand in `rtl/shade_pkg.sv`. Every packet is one beat of an AXI4-Stream; bits without a field, such as 207:205
+and 255:243 of SPAN, are ignored where they come in, and 0 where they go out. `S1.16`: signed, one integer bit, 16
 fraction bits; `U`: unsigned. Settings and counters: [registers](registers.md).
 """
 CODES = {
@@ -308,6 +345,7 @@ GENERATED = {
     "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom,
     "rtl/surface/shade_rho_rom.sv": rho_rom,
     "docs/registers.md": register_map,
+    "driver/shade_registers.h": forms.header,
 }
 
 

@@ -98,7 +98,7 @@ def file_list() -> list[str]:
 
 def licence() -> list[str]:
     """Sources without the line that names their licence."""
-    kinds = {".py", ".sv", ".sh", ".cpp", ".h", ".vlt", ".f"}
+    kinds = {".py", ".sv", ".sh", ".c", ".cpp", ".h", ".vlt", ".f"}
     sources = [name for name in documents.files(ROOT) if Path(name).suffix in kinds or name == "Makefile"]
     return [
         f"{name}: its first lines do not hold '{LICENCE}'" for name in sorted(sources) if not _licensed(ROOT / name)

@@ -99,9 +99,9 @@ static double minimax(int p, int first_free, double best[2]) {
     best[0] = best[1] = 0;
 
     for (int round = 0; round < 20; round++) {
-        /* the largest error of every run of equal sign; of the last three or two those with the largest minimum */
+        /* the largest error of every run of equal sign; of neighbours those with the largest, then of most error */
         int peak[3] = {0, 0, 0}, at[3] = {0, 0, 0}, peaks = 0, above = 0, top = 0;
-        double size[3] = {0, 0, 0}, of_top = -1, largest = 0, best_window = -1;
+        double size[3] = {0, 0, 0}, of_top = -1, largest = 0, best_window = -1, best_largest = -1;
         for (int j = 0; j <= POINTS; j++) {
             double error = j < POINTS ? error_at(j, p, k12) : 0;
             if (j == POINTS || (j > 0 && (error > 0) != above)) {  /* a run ends */
@@ -113,9 +113,13 @@ static double minimax(int p, int first_free, double best[2]) {
                 size[count] = of_top;
                 peaks++;
                 if (peaks > count) {
-                    double window = size[0];
-                    for (int i = 1; i <= count; i++) window = least(window, size[i]);
-                    if (window > best_window) {
+                    double window = size[0], high = size[0];
+                    for (int i = 1; i <= count; i++) {
+                        window = least(window, size[i]);
+                        high = most(high, size[i]);
+                    }
+                    if (high > best_largest || (high == best_largest && window > best_window)) {
+                        best_largest = high;
                         best_window = window;
                         for (int i = 0; i <= count; i++) at[i] = peak[i];
                     }

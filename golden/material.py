@@ -203,7 +203,11 @@ def _minimax(x: reference.Floats, target: reference.Floats, p: int, free: list[i
         spare = len(peaks) - len(free)
         if largest < EXACT or spare <= 0:
             break
-        at = max((peaks[i : i + len(free) + 1] for i in range(spare)), key=lambda at: np.abs(error[at]).min())
+        sizes = np.abs(error[peaks])  # neighbours, the largest of all among them; of several such those of most error
+        start = max(
+            range(spare), key=lambda i: (sizes[i : i + len(free) + 1].max(), sizes[i : i + len(free) + 1].min())
+        )
+        at = peaks[start : start + len(free) + 1]
         slopes = p * base[at, None] ** (p - 1) * powers[at][:, free]
         k12[free] += np.linalg.solve(np.column_stack([slopes, -np.sign(error[at])]), -error[at])[:-1]
     return best

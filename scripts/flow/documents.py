@@ -77,7 +77,8 @@ def mentions(root: Path, name: str, text: str) -> Iterator[str]:
 
 def header(name: str, text: str) -> Iterator[str]:
     """Modules named in the comments of a source that do not exist."""
-    known = {*modules(), *yardsticks(), "shade_pkg"}
+    technology = {path.stem for path in (ROOT / "rtl" / "tech").rglob("*.sv")}
+    known = {*modules(), *yardsticks(), *technology, "shade_pkg"}
     comments = "\n".join(re.findall(r"//(.*)$", text, re.MULTILINE))
     for module in MODULE.findall(comments):
         if module not in known:

@@ -87,7 +87,7 @@ def items() -> Iterator[Item]:
 def file_list() -> list[str]:
     """Faults of ``rtl/shade.f``: files missing, unlisted, listed twice, or a package that comes too late."""
     listed = sources()
-    found = set(RTL.rglob("*.sv"))
+    found = {path for path in RTL.rglob("*.sv") if not path.is_relative_to(RTL / "tech")}  # those replace others
     faults = [f"{_short(path)}: listed, but missing" for path in listed if path not in found]
     faults += [f"{_short(path)}: not listed" for path in sorted(found - set(listed))]
     faults += [f"{_short(path)}: listed twice" for path in sorted(set(listed)) if listed.count(path) > 1]

@@ -272,7 +272,6 @@ LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders
 LATENCY_HALF = 1 + LATENCY_WEIGH  # the choice of a straight line
 LATENCY_INVC = 1 + 2 * LATENCY_MUL + LATENCY_WEIGH  # u = 1 - c, u^2, u^4
 LATENCY_SCALE3 = LATENCY_MUL + 1  # products, rounding
-LATENCY_SCALE3_FOLDED = 3 + LATENCY_SCALE3  # the operands' register, two more turns of the multiplier
 LATENCY_MIDPOINT = LATENCY_INVC + LATENCY_SCALE3
 LATENCY_NODE_CHAIN = 2 * LATENCY_INVC + LATENCY_SCALE3
 LATENCY_METRIC = 1 + LATENCY_HALF + 1  # clamps, decisions

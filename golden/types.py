@@ -446,6 +446,65 @@ WAITING = Struct(
 PIXEL = _vector("pixel_t", "a pixel", k.PIXEL_W, "U0.16", ("diffuse", "specular"))
 COLOURED = _vector("coloured_t", "a coloured pixel", k.PIXEL_W, "U0.16", ("red", "green", "blue"))
 
+# ---- normals
+
+UNIT = Struct(
+    "unit_t",
+    "a unit normal",
+    (
+        _part("normal", VEC),
+        Field("zero", 1, "made of a vector of length 0"),
+        Field("too_short", 1, "made of a vector shorter than 1/8: not of unit length"),
+    ),
+)
+INVC = Struct(
+    "invc_t",
+    "what the middle of two unit normals needs",
+    (
+        Field("invc", k.INVC_F, "what their sum is multiplied by", "U0.18"),
+        Field("half", k.INTENSITY_W, "cosine of half their angle", "S1.16"),
+        Field("clamped", 1, "their cosine was not in [0, 1]"),
+    ),
+)
+METRIC = Struct(
+    "metric_t",
+    "how long the middle of two unit normals is, by P4's estimates",
+    (
+        Field("d1a", k.INTENSITY_W, "by the ends of their line", "S1.16"),
+        Field("d2", k.INTENSITY_W, "by the two", "S1.16"),
+        Field("needs_d1", 1, "d1a is below the threshold"),
+        Field("needs_d2", 1, "d2 is below the threshold"),
+        Field("clamped", 1, "the cosine was not in [0, 1]"),
+        Field("m_error", 1, "m was not in 3 .. 12"),
+        Field("threshold_error", 1, "the threshold was not in [0, 1]"),
+    ),
+)
+CHOICE = Struct(
+    "choice_t",
+    "how the middle of two unit normals is made",
+    (
+        Field("middle", 1, "0: it is the first of both"),
+        Field("variant", k.VARIANT_W, "VARIANT_*"),
+        Field("needs_d1", 1, "d1a is below the threshold"),
+        Field("threshold", k.INTENSITY_W, "of d2", "S1.16"),
+    ),
+)
+ARC = Struct("arc_t", "unit normals along an arc", tuple(_part(f"n{i}", VEC, f"at {i}/4") for i in range(5)))
+
+COSINES = _vector(
+    "cosines_t", "of the angles between the normals of a triangle", k.INTENSITY_W, "S1.16", ("ab", "bc", "ca")
+)
+CRITERION = Struct(
+    "criterion_t",
+    "whether a triangle's normals must be normalized, by P2",
+    (
+        Field("eta", k.ETA_W, "how much too dark it gets otherwise", "S1.18"),
+        Field("normalize", 1, "eta is above the threshold"),
+        Field("clamped", 1, "a cosine was not in [0, 1]"),
+        Field("threshold_error", 1, "the threshold was not in [0, 1]"),
+    ),
+)
+
 # ---- from a span to its pixels
 
 JOB = Struct(
@@ -658,6 +717,15 @@ ERRORS = Struct(
         Field("packet", 1, "a packet cut short or too long"),
         Field("metric", 1, "V1, V2: fewer than 3 sectors or more than 12"),
         Field("threshold", 1, "threshold outside [0, 1]"),
+    ),
+)
+TOLD = Struct(
+    "told_t",
+    "what is told of a packet of spans, once for each",
+    (
+        Field("good", 1, "it was a span"),
+        Field("bad", 1, "it was none"),
+        _part("error", ERRORS),
     ),
 )
 STATUS = Struct(

@@ -80,7 +80,6 @@ light/shade_light_local.sv
 light/shade_light_folded.sv
 core/shade_collect.sv
 core/shade_paint.sv
-core/shade_phong.sv
 core/shade_registers.sv
 core/shade_door.sv
 core/shade_tally.sv

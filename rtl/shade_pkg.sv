@@ -289,7 +289,6 @@ package shade_pkg;
   localparam int LATENCY_HALF = 5;  // the choice of a straight line
   localparam int LATENCY_INVC = 9;  // u = 1 - c, u^2, u^4
   localparam int LATENCY_SCALE3 = 3;  // products, rounding
-  localparam int LATENCY_SCALE3_FOLDED = 6;  // the operands' register, two more turns of the multiplier
   localparam int LATENCY_MIDPOINT = 12;
   localparam int LATENCY_NODE_CHAIN = 21;
   localparam int LATENCY_METRIC = 7;  // clamps, decisions
@@ -474,6 +473,13 @@ package shade_pkg;
   localparam int WAITING_BITS = 55;
   localparam int PIXEL_BITS = 32;
   localparam int COLOURED_BITS = 48;
+  localparam int UNIT_BITS = 56;
+  localparam int INVC_BITS = 37;
+  localparam int METRIC_BITS = 41;
+  localparam int CHOICE_BITS = 23;
+  localparam int ARC_BITS = 270;
+  localparam int COSINES_BITS = 54;
+  localparam int CRITERION_BITS = 23;
   localparam int JOB_BITS = 209;
   localparam int STRETCH_BITS = 245;
   localparam int PLAN_BITS = 39;
@@ -494,6 +500,7 @@ package shade_pkg;
   localparam int PAINTED_BITS = 65;
   localparam int NODE_FLAGS_BITS = 6;
   localparam int ERRORS_BITS = 5;
+  localparam int TOLD_BITS = 7;
   localparam int STATUS_BITS = 11;
 
   // a vector; of a node, before it is normalized, S2.15
@@ -768,6 +775,63 @@ package shade_pkg;
     logic [15:0] red;  // U0.16
   } coloured_t;
 
+  // a unit normal
+  typedef struct packed {
+    logic too_short;  // made of a vector shorter than 1/8: not of unit length
+    logic zero;  // made of a vector of length 0
+    vec_t normal;  // a vector; of a node, before it is normalized, S2.15
+  } unit_t;
+
+  // what the middle of two unit normals needs
+  typedef struct packed {
+    logic clamped;  // their cosine was not in [0, 1]
+    logic signed [17:0] half;  // S1.16: cosine of half their angle
+    logic [17:0] invc;  // U0.18: what their sum is multiplied by
+  } invc_t;
+
+  // how long the middle of two unit normals is, by P4's estimates
+  typedef struct packed {
+    logic threshold_error;  // the threshold was not in [0, 1]
+    logic m_error;  // m was not in 3 .. 12
+    logic clamped;  // the cosine was not in [0, 1]
+    logic needs_d2;  // d2 is below the threshold
+    logic needs_d1;  // d1a is below the threshold
+    logic signed [17:0] d2;  // S1.16: by the two
+    logic signed [17:0] d1a;  // S1.16: by the ends of their line
+  } metric_t;
+
+  // how the middle of two unit normals is made
+  typedef struct packed {
+    logic signed [17:0] threshold;  // S1.16: of d2
+    logic needs_d1;  // d1a is below the threshold
+    logic [2:0] variant;  // VARIANT_*
+    logic middle;  // 0: it is the first of both
+  } choice_t;
+
+  // unit normals along an arc
+  typedef struct packed {
+    vec_t n4;  // at 4/4
+    vec_t n3;  // at 3/4
+    vec_t n2;  // at 2/4
+    vec_t n1;  // at 1/4
+    vec_t n0;  // at 0/4
+  } arc_t;
+
+  // of the angles between the normals of a triangle
+  typedef struct packed {
+    logic signed [17:0] ca;  // S1.16
+    logic signed [17:0] bc;  // S1.16
+    logic signed [17:0] ab;  // S1.16
+  } cosines_t;
+
+  // whether a triangle's normals must be normalized, by P2
+  typedef struct packed {
+    logic threshold_error;  // the threshold was not in [0, 1]
+    logic clamped;  // a cosine was not in [0, 1]
+    logic normalize;  // eta is above the threshold
+    logic signed [19:0] eta;  // S1.18: how much too dark it gets otherwise
+  } criterion_t;
+
   // a span on its way to its nodes
   typedef struct packed {
     logic [15:0] tag;  // given back with every pixel
@@ -947,6 +1011,13 @@ package shade_pkg;
     logic too_long;  // a span of more than 4096 pixels
     logic empty;  // a span of 0 pixels
   } errors_t;
+
+  // what is told of a packet of spans, once for each
+  typedef struct packed {
+    errors_t error;  // faults of a span
+    logic bad;  // it was none
+    logic good;  // it was a span
+  } told_t;
 
   // what STATUS remembers
   typedef struct packed {

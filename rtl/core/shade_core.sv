@@ -75,23 +75,23 @@ module shade_core #(
   localparam int TAG_W = shade_pkg::TAG_W;
   shade_pkg::draw_t draw;
   shade_pkg::span_t span;
+  shade_pkg::told_t told;
   shade_pkg::status_t events;
   shade_pkg::counts_t counts;
-  logic change, busy, busy_q;
+  logic change, clear, busy, busy_q;
   logic [LANES-1:0] enter, room, ready, given, lit;
   logic [LANES-1:0][shade_pkg::NODE_FLAGS_BITS-1:0] flags;
 
   shade_door #(.LANES(LANES), .PATH_NORMALS(PATH_NORMALS)) u_door (
     .clk_i, .rst_i, .s_axis_span_tvalid, .s_axis_span_tready, .s_axis_span_tdata, .s_axis_span_tkeep,
     .s_axis_span_tlast, .draw_i(draw), .hold_i(change), .valid_o(enter), .room_i(room), .ready_i(ready),
-    .given_i(given), .span_o(span), .busy_o(busy), .good_o(counts.spans[0]), .bad_o(counts.errors[0]), .error_o(events.error)
+    .given_i(given), .span_o(span), .busy_o(busy), .told_o(told)
   );
-  assign counts.spans[2:1]  = 2'b00;
-  assign counts.errors[2:1] = 2'b00;
 
   // all lanes count together: what is folded takes an input in phase 0
-  logic [2:0] phase_q;
-  always_ff @(posedge clk_i) phase_q <= rst_i || phase_q == 3'(FOLD - 1) ? 3'd0 : phase_q + 3'd1;
+  localparam int PHASE_W = shade_pkg::PHASE_W;
+  logic [PHASE_W-1:0] phase_q;
+  always_ff @(posedge clk_i) phase_q <= rst_i || phase_q == PHASE_W'(FOLD - 1) ? '0 : phase_q + PHASE_W'(1);
 
   for (genvar i = 0; i < LANES; i++) begin : g_lane
     // with several lanes a copy of the settings each, near where they are needed; no span enters sooner
@@ -131,8 +131,7 @@ module shade_core #(
 
   shade_tally #(.LANES(LANES)) u_tally (
     .clk_i, .rst_i, .valid_i(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready), .lit_i(lit), .flags_i(flags),
-    .given_o(given), .pixels_o(counts.pixels), .stalls_o(counts.stalls), .evaluations_o(counts.evaluations),
-    .flags_o(events.node)
+    .told_i(told), .given_o(given), .counts_o(counts), .events_o(events)
   );
   always_ff @(posedge clk_i) busy_q <= !rst_i && busy;  // a span is at the door or inside
 
@@ -140,6 +139,8 @@ module shade_core #(
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(), .busy_i(busy_q), .events_i(events), .counts_i(counts)
+    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(busy_q), .events_i(events), .counts_i(counts)
   );
+  logic unused_clear;
+  assign unused_clear = clear;
 endmodule

@@ -6,7 +6,7 @@
 //   span_o           a good span; valid_o: to which lane. room_i, ready_i: which lanes could take one, and do in this clock
 //   given_i          a lane gives a pixel
 //   busy_o           a span was taken, waits, or is inside a lane
-//   good_o, bad_o    a packet was one span, or faulty; error_o tells of it. 2 clocks after its first beat
+//   told_o           a packet was good, one span, or bad, and its errors; 2 clocks after its first beat
 //
 // A span goes to the lane that has the fewest pixels to draw, of those that have room for it: of those that are as they were two
 // clocks ago, the first one of several. It is offered only to a lane that takes it.
@@ -34,9 +34,7 @@ module shade_door #(
   input  logic [                   LANES-1:0] given_i,
   output shade_pkg::span_t                    span_o,
   output logic                                busy_o,
-  output logic                                good_o,
-  output logic                                bad_o,
-  output shade_pkg::errors_t                  error_o
+  output shade_pkg::told_t                    told_o
 );
   if (LANES < 1 || LANES > 8) begin : g_check
     $error("shade_door: LANES must be in 1 .. 8");
@@ -70,12 +68,12 @@ module shade_door #(
     seen_q.metric    <= good && pixels && counts && (span.count <= COUNT_W'(shade_pkg::METRIC_M_MIN) ||
                                                      span.count > COUNT_W'(shade_pkg::METRIC_M_MAX + 1));
     seen_q.threshold <= good && pixels && (draw_i.planner.threshold < 0 || draw_i.planner.threshold > 18'sd65536);
-    good_o           <= good_q;
-    bad_o            <= first_q && !good_q;
-    error_o          <= first_q ? seen_q : '0;
+    told_o.good      <= good_q;
+    told_o.bad       <= first_q && !good_q;
+    told_o.error     <= first_q ? seen_q : '0;
     if (rst_i) begin
-      {inside_q, first_q, good_q, good_o, bad_o} <= '0;
-      error_o                                    <= '0;
+      {inside_q, first_q, good_q} <= '0;
+      told_o                      <= '0;
     end
   end
 

@@ -49,16 +49,17 @@ module shade_lane #(
   end
 
   // ---- points: a place in a record, and a unit normal ---------------------------------------------------------------
-  logic pixels, record_taken, line_ready, line_room, node, unit, zero, short_n, pixel_ready, pixel;
+  logic pixels, record_taken, line_ready, line_room, node, lined, pixel_ready, pixel;
   shade_pkg::place_t node_place, pixel_place;
-  shade_pkg::vec_t node_normal, pixel_normal;
+  shade_pkg::unit_t unit;
+  shade_pkg::vec_t pixel_normal;
   assign pixels  = PATH_NORMALS == 1 && draw_i.control.path == 1'(shade_pkg::PATH_NORMALS);
   assign ready_o = pixels ? pixel_ready : line_ready;
   assign room_o  = pixels ? pixel_ready : line_room;
   shade_line #(.FOLD(FOLD)) u_line (
     .clk_i, .rst_i, .phase_i, .draw_i, .valid_i(valid_i && !pixels), .ready_o(line_ready),
-    .room_o(line_room), .span_i, .credit_i(record_taken && !pixels), .place_valid_o(node), .place_o(node_place), .valid_o(unit),
-    .normal_o(node_normal), .zero_o(zero), .short_o(short_n)
+    .room_o(line_room), .span_i, .credit_i(record_taken && !pixels), .place_valid_o(node), .place_o(node_place), .valid_o(lined),
+    .unit_o(unit)
   );
   if (PATH_NORMALS == 1) begin : g_pixels
     shade_pixel_points u_pixels (
@@ -84,9 +85,9 @@ module shade_lane #(
   shade_pkg::vec_t normal_q;
   logic [1:0] fault_q;
   always_ff @(posedge clk_i) begin
-    normal_q <= pixels ? pixel_normal : node_normal;
-    fault_q  <= pixels ? 2'b00 : {short_n, zero};
-    dark_q   <= !rst_i && (pixels ? pixel : unit);
+    normal_q <= pixels ? pixel_normal : unit.normal;
+    fault_q  <= pixels ? 2'b00 : {unit.too_short, unit.zero};
+    dark_q   <= !rst_i && (pixels ? pixel : lined);
   end
   shade_pkg::intensity_t light;
   if (FOLD == 1) begin : g_light

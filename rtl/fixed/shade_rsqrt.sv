@@ -14,10 +14,7 @@
 // Source: P4 and P2 need it for normalizing, P1 for Ward's root.
 module shade_rsqrt (
   input  logic                          clk_i,
-  input  logic                          rst_i,
-  input  logic                          valid_i,
   input  logic [shade_pkg::RSQRT_W-1:0] z_i,
-  output logic                          valid_o,
   output logic [  shade_pkg::RSQRT_F:0] y_o,
   output logic [                   4:0] e_o,
   output logic                          zero_o
@@ -106,6 +103,4 @@ module shade_rsqrt (
     e_o    <= zero_q9 ? '0 : e_q9;
     zero_o <= zero_q9;
   end
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_RSQRT)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

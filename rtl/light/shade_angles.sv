@@ -55,14 +55,8 @@ module shade_angles #(
   logic signed [W-1:0] nl_limited, nl_q5, nl_last;
   logic [F:0] nl, nv, nv_q5;
   logic nl_range, nv_range, saturated, nl_range_q5, nv_range_q5, saturated_q5;
-  shade_dot3 u_nl (
-    .clk_i, .rst_i, .valid_i(1'b0), .ax_i(n_i[0+:W]), .ay_i(n_i[W+:W]), .az_i(n_i[2*W+:W]),
-    .bx_i(l_i[0+:W]), .by_i(l_i[W+:W]), .bz_i(l_i[2*W+:W]), .valid_o(), .d_o(nl_q4)
-  );
-  shade_dot3 u_nv (
-    .clk_i, .rst_i, .valid_i(1'b0), .ax_i(n_i[0+:W]), .ay_i(n_i[W+:W]), .az_i(n_i[2*W+:W]),
-    .bx_i(v_i[0+:W]), .by_i(v_i[W+:W]), .bz_i(v_i[2*W+:W]), .valid_o(), .d_o(nv_q4)
-  );
+  shade_dot3 u_nl (.clk_i, .a_i(n_i), .b_i(l_i), .d_o(nl_q4));
+  shade_dot3 u_nv (.clk_i, .a_i(n_i), .b_i(v_i), .d_o(nv_q4));
   localparam logic signed [DOT_W-1:0] ONE = DOT_W'(1) <<< F;
   assign nl_range  = nl_q4 > ONE || nl_q4 < -ONE;
   assign nv_range  = nv_q4 > ONE || nv_q4 < -ONE;

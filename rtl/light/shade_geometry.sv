@@ -107,7 +107,7 @@ module shade_geometry (
     z_q7 <= schlick ? x_q6 + (Z_W'(r_q6) << (X_F - F)) : Z_W'(den_q6);
   end
   shade_rsqrt u_rsqrt (
-    .clk_i, .rst_i, .valid_i(1'b0), .z_i(z_q7), .valid_o(), .y_o(y_q17), .e_o(e_q17), .zero_o(zero_q17)
+    .clk_i, .z_i(z_q7), .y_o(y_q17), .e_o(e_q17), .zero_o(zero_q17)
   );
 
   // ---- 1 + w: the root, or its square, doubled where it is below 1/2 ---------------------------------------------

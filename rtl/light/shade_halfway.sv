@@ -42,20 +42,12 @@ module shade_halfway (
 
   logic [3*W-1:0] h_q20;
   logic zero_q20;
-  shade_normalize u_normalize (
-    .clk_i, .rst_i, .valid_i(1'b0), .x_i(s_q1[0+:W]), .y_i(s_q1[W+:W]), .z_i(s_q1[2*W+:W]),
-    .valid_o(), .x_o(h_q20[0+:W]), .y_o(h_q20[W+:W]), .z_o(h_q20[2*W+:W]), .zero_o(zero_q20)
-  );
+  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(s_q1), .n_o(h_q20), .zero_o(zero_q20));
 
   logic signed [shade_pkg::DOT_W-1:0] dot_q24;
   logic [shade_pkg::INTENSITY_F:0] vh;
   shade_ring #(.WIDTH(3 * W), .DEPTH(TO_H)) u_v (.clk_i, .rst_i, .d_i(v), .q_o(v_q20));
-  shade_dot3 u_dot (
-    .clk_i, .rst_i, .valid_i(1'b0),
-    .ax_i(v_q20[0+:W]), .ay_i(v_q20[W+:W]), .az_i(v_q20[2*W+:W]),
-    .bx_i(h_q20[0+:W]), .by_i(h_q20[W+:W]), .bz_i(h_q20[2*W+:W]),
-    .valid_o(), .d_o(dot_q24)
-  );
+  shade_dot3 u_dot (.clk_i, .a_i(v_q20), .b_i(h_q20), .d_o(dot_q24));
   shade_clamp #(.WIDTH(shade_pkg::DOT_W)) u_vh (.x_i(dot_q24), .y_o(vh), .clamped_o());
   always_ff @(posedge clk_i) vh_o <= vh;
 

@@ -33,8 +33,7 @@ module shade_reflect (
   logic signed [DOT_W-1:0] d_q4, d_q5;
   logic signed [W-1:0] m, m_q6;
   shade_dot3 #(.OUT_F(F + 1)) u_dot (
-    .clk_i, .rst_i, .valid_i(1'b0), .ax_i(nx_i), .ay_i(ny_i), .az_i(nz_i), .bx_i(lx_i), .by_i(ly_i), .bz_i(lz_i),
-    .valid_o(), .d_o(d_q4)
+    .clk_i, .a_i({nz_i, ny_i, nx_i}), .b_i({lz_i, ly_i, lx_i}), .d_o(d_q4)
   );
   shade_limit #(.WIDTH(DOT_W), .OUT_W(W)) u_m (.x_i(d_q5), .y_o(m));
   always_ff @(posedge clk_i) begin

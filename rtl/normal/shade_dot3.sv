@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_dot3: d = a . b, the dot product of two vectors; of unit vectors, the cosine of their angle.
 //
-//   ax_i .. bz_i        sd.ffff        S1.16
+//   a_i, b_i            sd.ffff        S1.16
 //   products         sdddd.ffff ffff   S3.32 each, exact
 //   d_o              sdddd.ffff        S4.OUT_F: |d| <= 3 * 2 * 2 = 12 < 16, overflow is impossible
 //
@@ -11,16 +11,9 @@
 module shade_dot3 #(
   parameter int OUT_F = shade_pkg::INTENSITY_F
 ) (
-  input  logic                                     clk_i,
-  input  logic                                     rst_i,
-  input  logic                                     valid_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] ax_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] ay_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] az_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] bx_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] by_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] bz_i,
-  output logic                                     valid_o,
+  input  logic                                                            clk_i,
+  input  shade_pkg::vec_t                                                 a_i,
+  input  shade_pkg::vec_t                                                 b_i,
   output logic signed [shade_pkg::DOT_W-shade_pkg::INTENSITY_F+OUT_F-1:0] d_o
 );
   if (OUT_F < 1 || OUT_F >= 2 * shade_pkg::INTENSITY_F) begin : g_check
@@ -34,9 +27,9 @@ module shade_dot3 #(
   localparam int DROP = 2 * F - OUT_F;
 
   logic signed [2*W-1:0] x_q2, y_q2, z_q2;
-  shade_mul #(.A_W(W), .B_W(W)) u_x (.clk_i, .a_i(ax_i), .b_i(bx_i), .p_o(x_q2));
-  shade_mul #(.A_W(W), .B_W(W)) u_y (.clk_i, .a_i(ay_i), .b_i(by_i), .p_o(y_q2));
-  shade_mul #(.A_W(W), .B_W(W)) u_z (.clk_i, .a_i(az_i), .b_i(bz_i), .p_o(z_q2));
+  shade_mul #(.A_W(W), .B_W(W)) u_x (.clk_i, .a_i(a_i.x), .b_i(b_i.x), .p_o(x_q2));
+  shade_mul #(.A_W(W), .B_W(W)) u_y (.clk_i, .a_i(a_i.y), .b_i(b_i.y), .p_o(y_q2));
+  shade_mul #(.A_W(W), .B_W(W)) u_z (.clk_i, .a_i(a_i.z), .b_i(b_i.z), .p_o(z_q2));
 
   localparam logic signed [SUM_W-1:0] HALF = SUM_W'(1) <<< (DROP - 1);
   logic signed [SUM_W-1:0] xy_q3, z_q3, sum;
@@ -46,6 +39,4 @@ module shade_dot3 #(
     d_o   <= OUT_W'(sum >>> DROP);
   end
   assign sum = xy_q3 + z_q3;
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_DOT3)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

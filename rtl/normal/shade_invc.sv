@@ -8,9 +8,9 @@
 // with u = 1 - c. Refined, both come from the same powers, are exact for c = 1 (equal normals) and have the true slope
 // there, which a high shininess needs; within 1.6e-4 (relative) and 1.8e-4. h is the c of the interval's halves.
 //
-//   c_i        S1.16, clamped to [0, 1]; clamped_o tells, with the result
+//   c_i        S1.16, clamped to [0, 1]; clamped tells, with the result
 //   powers     18 fraction bits, the rest is cut (u^2 to 16 before it is squared)
-//   invc_o     U0.18 in [0.49, 0.71]; half_o  S1.16; both to nearest, ties up: error at most 0.82 ulp of the formula
+//   invc_o     invc U0.18 in [0.49, 0.71], half S1.16; both to nearest, ties up: error at most 0.82 ulp of the formula
 //              with the constants as they are here; with those that P4 prints 1.65 ulp (InvC1), 2.3 ulp (InvC2)
 //
 // Constants of 16 fraction bits, by shifts and adds; two 18 x 18 multipliers (one in FORM_PAPER, none in DEGREE 1).
@@ -21,13 +21,8 @@ module shade_invc #(
   parameter int DEGREE = 2
 ) (
   input  logic                                     clk_i,
-  input  logic                                     rst_i,
-  input  logic                                     valid_i,
   input  logic signed [shade_pkg::INTENSITY_W-1:0] c_i,
-  output logic                                     valid_o,
-  output logic                                     clamped_o,
-  output logic        [     shade_pkg::INVC_F-1:0] invc_o,
-  output logic signed [shade_pkg::INTENSITY_W-1:0] half_o
+  output shade_pkg::invc_t                         invc_o
 );
   if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check_form
     $error("shade_invc: FORM must be FORM_PAPER or FORM_REFINED");
@@ -57,13 +52,13 @@ module shade_invc #(
   logic [2*C_W:0] square_q3;
   logic [F:0] vv_q5, vvvv_q5;
   shade_square #(.WIDTH(C_W + 1)) u_square (.clk_i, .x_i($signed({1'b0, v_q1})), .y_o(square_q3));
-  shade_delay #(.WIDTH(F + 1), .DEPTH(MUL)) u_vv (.clk_i, .d_i(square_q3[CUT+:F+1]), .q_o(vv_q5));
+  shade_delay #(.WIDTH(F + 1), .DEPTH(MUL)) u_vv (.clk_i, .d_i((F + 1)'(square_q3 >> CUT)), .q_o(vv_q5));
   if (REFINED) begin : g_fourth
     logic [2*C_W:0] fourth_q5;
     shade_square #(.WIDTH(C_W + 1)) u_fourth (
-      .clk_i, .x_i($signed({1'b0, square_q3[shade_pkg::INTENSITY_F+:C_W]})), .y_o(fourth_q5)
+      .clk_i, .x_i({1'b0, C_W'(square_q3 >> shade_pkg::INTENSITY_F)}), .y_o(fourth_q5)
     );
-    assign vvvv_q5 = fourth_q5[CUT+:F+1];
+    assign vvvv_q5 = (F + 1)'(fourth_q5 >> CUT);
     logic unused_fourth;
     assign unused_fourth = &{1'b0, fourth_q5};
   end else begin : g_none
@@ -85,13 +80,12 @@ module shade_invc #(
     .KY(REFINED ? shade_pkg::INVC_UU : LINEAR ? 0 : shade_pkg::INVC2_CC),
     .KZ(REFINED ? shade_pkg::INVC_UUUU : 0)
   ) u_invc (.clk_i, .x_i(x), .y_i(y), .z_i(z), .w_o(invc));
-  assign invc_o = invc[shade_pkg::INVC_F-1:0];
+  assign invc_o.invc = shade_pkg::INVC_F'(invc);
   logic unused_sign;
   assign unused_sign = &{1'b0, invc[shade_pkg::INVC_F]};
 
-  shade_half #(.FORM(FORM)) u_half (.clk_i, .c_i(c_q4), .uu_i(vv_q5), .uuuu_i(vvvv_q5), .half_o);
-
-  localparam int LATENCY = shade_pkg::LATENCY_INVC;
-  shade_delay #(.WIDTH(1), .DEPTH(LATENCY - 1)) u_clamped (.clk_i, .d_i(clamped_q1), .q_o(clamped_o));
-  shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+  shade_half #(.FORM(FORM)) u_half (.clk_i, .c_i(c_q4), .uu_i(vv_q5), .uuuu_i(vvvv_q5), .half_o(invc_o.half));
+  shade_delay #(.WIDTH(1), .DEPTH(shade_pkg::LATENCY_INVC - 1)) u_clamped (
+    .clk_i, .d_i(clamped_q1), .q_o(invc_o.clamped)
+  );
 endmodule

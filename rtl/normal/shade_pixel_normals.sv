@@ -85,19 +85,15 @@ module shade_pixel_normals (
   // two increments to the right neighbour, one to the pixel itself
   shade_pkg::step_t step;
   shade_pkg::vec_t n, e;
-  logic fresh_n, fresh_e;
+  logic fresh_e, zero_e;
   assign step.x = single_q2 ? line_q2.increment.x : line_q2.increment.x <<< 1;
   assign step.y = single_q2 ? line_q2.increment.y : line_q2.increment.y <<< 1;
   assign step.z = single_q2 ? line_q2.increment.z : line_q2.increment.z <<< 1;
   shade_increment u_increment (
-    .clk_i, .rst_i, .valid_i(fresh_q2), .first_i(first_q2), .line_i(1'b0), .xn_i(line_q2.normal.x),
-    .yn_i(line_q2.normal.y), .zn_i(line_q2.normal.z), .xg_i(step.x), .yg_i(step.y), .zg_i(step.z), .xl_i('0), .yl_i('0),
-    .zl_i('0), .valid_o(fresh_n), .x_o(n.x), .y_o(n.y), .z_o(n.z)
+    .clk_i, .valid_i(fresh_q2), .first_i(first_q2), .line_i(1'b0), .n_i(line_q2.normal), .g_i(step), .l_i('0), .n_o(n)
   );
-  shade_normalize u_normalize (
-    .clk_i, .rst_i, .valid_i(fresh_n), .x_i(n.x), .y_i(n.y), .z_i(n.z), .valid_o(fresh_e), .x_o(e.x), .y_o(e.y),
-    .z_o(e.z), .zero_o()
-  );
+  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(n), .n_o(e), .zero_o(zero_e));
+  shade_valid #(.DEPTH(TO_UNIT)) u_fresh_e (.clk_i, .rst_i, .valid_i(fresh_q2), .valid_o(fresh_e));
 
   // ---- the two neighbours of every pixel -----------------------------------------------------------------------
   logic valid_e, middle_e, valid_m, middle_m;
@@ -113,34 +109,29 @@ module shade_pixel_normals (
   end
 
   // ---- the factor: d1a belongs to the line, d2 to the pixel ----------------------------------------------------------
-  logic needs_d1, needs_d1_m;
-  logic [VARIANT_W-1:0] variant_m;
-  logic signed [W-1:0] threshold_m;
+  shade_pkg::metric_t metric;
+  shade_pkg::choice_t choice_m;
   logic [shade_pkg::INVC_F-1:0] factor;
   shade_metric u_metric (
-    .clk_i, .rst_i, .valid_i(1'b0), .c_i(line_q2.cosine), .m_i(sectors_q2), .threshold_i(threshold_q2),
-    .valid_o(), .d1a_o(), .d2_o(), .needs_d1_o(needs_d1), .needs_d2_o(), .clamped_o(), .m_error_o(),
-    .threshold_error_o()
+    .clk_i, .c_i(line_q2.cosine), .m_i(sectors_q2), .threshold_i(threshold_q2), .metric_o(metric)
   );
   shade_delay #(.WIDTH(1), .DEPTH(TO_PAIR - shade_pkg::LATENCY_METRIC)) u_needs_d1 (
-    .clk_i, .d_i(needs_d1), .q_o(needs_d1_m)
+    .clk_i, .d_i(metric.needs_d1), .q_o(choice_m.needs_d1)
   );
   shade_ring #(.WIDTH(VARIANT_W + W), .DEPTH(TO_PAIR)) u_choice (
-    .clk_i, .rst_i, .d_i({variant_q2, threshold_q2}), .q_o({variant_m, threshold_m})
+    .clk_i, .rst_i, .d_i({variant_q2, threshold_q2}), .q_o({choice_m.variant, choice_m.threshold})
   );
-  shade_factor u_factor (
-    .clk_i, .rst_i, .a_i(a_m), .b_i(b_m), .middle_i(middle_m), .variant_i(variant_m), .needs_d1_i(needs_d1_m),
-    .threshold_i(threshold_m), .factor_o(factor)
-  );
+  assign choice_m.middle = middle_m;
+  shade_factor u_factor (.clk_i, .rst_i, .a_i(a_m), .b_i(b_m), .choice_i(choice_m), .factor_o(factor));
 
   // ---- out -----------------------------------------------------------------------------------------------------
   logic valid_p, last_p;
   logic [shade_pkg::TAG_W-1:0] tag_p;
   shade_pkg::vec_t normal_p, normal;
   shade_bisect #(.WAIT(shade_pkg::LATENCY_FACTOR_S)) u_bisect (
-    .clk_i, .rst_i, .valid_i(valid_m), .ax_i(a_m.x), .ay_i(a_m.y), .az_i(a_m.z), .bx_i(b_m.x), .by_i(b_m.y),
-    .bz_i(b_m.z), .invc_i(factor), .valid_o(valid_p), .x_o(normal_p.x), .y_o(normal_p.y), .z_o(normal_p.z)
+    .clk_i, .rst_i, .a_i(a_m), .b_i(b_m), .invc_i(factor), .n_o(normal_p)
   );
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_MIDDLE)) u_valid_p (.clk_i, .rst_i, .valid_i(valid_m), .valid_o(valid_p));
   shade_ring #(.WIDTH(1 + $bits(tag_p)), .DEPTH(TO_END)) u_token_p (
     .clk_i, .rst_i, .d_i({last_q2, line_q2.tag}), .q_o({last_p, tag_p})
   );
@@ -152,5 +143,5 @@ module shade_pixel_normals (
   assign m_axis_normal_tdata = shade_pkg::NORMAL_DATA_W'(normal);
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, line_q2};
+  assign unused_bits = &{1'b0, line_q2, metric, zero_e};
 endmodule

@@ -138,23 +138,25 @@ module shade_kappa #(
 
   // ---- shifted by r, in steps of 16, 4 and 1 -----------------------------------------------------------------------
   localparam int R_W = 8;  // -32 .. 71
+  localparam int KAPPA_W = shade_pkg::KAPPA_W;
   logic signed [R_W-1:0] rest_q3, rest_q4, r_q5, r_q10;
-  logic [3:0] r_q11;
-  logic [1:0] r_q12;
+  logic [1:0] sixteens, fours, ones, fours_q11, ones_q11, ones_q12;
   logic [P_W-1:0] p_q11, p_q12, p_q13;
-  logic over_q11, over_q13;
+  logic over, none, over_q11, over_q13;
+  assign {over, none, sixteens, fours, ones} = r_q10;
   always_ff @(posedge clk_i) begin
     rest_q3 <= R_W'(9) - $signed(R_W'(exponent_i)) - $signed(R_W'({log2_i, 1'b0}));
     rest_q4 <= rest_q3;
     r_q5    <= rest_q4 + $signed(R_W'({s_q4, 1'b0}));
 
-    over_q11 <= r_q10[R_W-1];
-    r_q11    <= r_q10[3:0];
-    p_q11    <= r_q10[R_W-2] ? '0 : {product[P_W-2:0], 1'b0} >> {r_q10[5:4], 4'b0000};
-    r_q12    <= r_q11[1:0];
-    p_q12    <= p_q11 >> {r_q11[3:2], 2'b00};
-    p_q13    <= p_q12 >> r_q12;
-    kappa_o  <= p_q13[shade_pkg::KAPPA_W-1:0] | {shade_pkg::KAPPA_W{over_q13 || |p_q13[P_W-1:shade_pkg::KAPPA_W]}};
+    over_q11  <= over;
+    fours_q11 <= fours;
+    ones_q11  <= ones;
+    p_q11     <= none ? '0 : P_W'({product, 1'b0}) >> {sixteens, 4'b0000};
+    ones_q12  <= ones_q11;
+    p_q12     <= p_q11 >> {fours_q11, 2'b00};
+    p_q13     <= p_q12 >> ones_q12;
+    kappa_o   <= KAPPA_W'(p_q13) | {KAPPA_W{over_q13 || p_q13 >> KAPPA_W != '0}};
   end
   shade_ring #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATENCY - shade_pkg::LATENCY_KAPPA)) u_r (.clk_i, .rst_i, .d_i(r_q5), .q_o(r_q10));
   shade_delay #(.WIDTH(1), .DEPTH(2)) u_over (.clk_i, .d_i(over_q11), .q_o(over_q13));

@@ -2,14 +2,14 @@
 // shade_line: spans in, unit normals at the nodes of their records out: the line form's producer of points.
 //
 //   span ─┬─▶ shade_planner ─▶ plans ─┐
-//         └─▶ shade_fifo ─── jobs ────┴▶ shade_node_walk ─┬─▶ shade_unit ─▶ normal_o
+//         └─▶ shade_fifo ─── jobs ────┴▶ shade_node_walk ─┬─▶ shade_unit ─▶ unit_o
 //                                                         └─▶ place_o
 //
 //   span_i       1 .. 4096 pixels; its flat bit counts with Lambert's light alone (P2)
 //   room_o       there is a place for a span; ready_o: it is taken in this clock
 //   draw_i       settings; must not change while a span is inside
 //   place_o      a node's place in its record, with place_valid_o, LATENCY_UNIT(_FOLDED) clocks before its normal
-//   normal_o     S1.16, with valid_o; zero_o, short_o: see shade_unit
+//   unit_o       the normal, S1.16, with valid_o; see shade_unit
 //   credit_i     gives one credit back; 2^RECORD_FIFO_LOG2 are there after reset, a record costs one
 //
 // FOLD = 6: planner and unit with one multiplier each for what takes three or more otherwise: a span and a node in six
@@ -31,9 +31,7 @@ module shade_line #(
   output logic              place_valid_o,
   output shade_pkg::place_t place_o,
   output logic              valid_o,
-  output shade_pkg::vec_t   normal_o,
-  output logic              zero_o,
-  output logic              short_o
+  output shade_pkg::unit_t  unit_o
 );
   if (FOLD != 1 && FOLD != 6) begin : g_check
     $error("shade_line: FOLD must be 1 or 6");
@@ -77,11 +75,9 @@ module shade_line #(
     .credit_i, .valid_o(place_valid_o), .node_o(node)
   );
   assign place_o = node.place;
-  shade_unit #(.FOLD(FOLD)) u_unit (
-    .clk_i, .rst_i, .valid_i(place_valid_o), .ready_o(), .bypass_i(node.flat), .x_i(node.normal.x),
-    .y_i(node.normal.y), .z_i(node.normal.z), .valid_o, .x_o(normal_o.x), .y_o(normal_o.y), .z_o(normal_o.z), .zero_o,
-    .short_o
-  );
+  localparam int TO_UNIT = FOLD == 1 ? shade_pkg::LATENCY_UNIT : shade_pkg::LATENCY_UNIT_FOLDED;
+  shade_unit #(.FOLD(FOLD)) u_unit (.clk_i, .rst_i, .phase_i, .bypass_i(node.flat), .v_i(node.normal), .unit_o);
+  shade_valid #(.DEPTH(TO_UNIT)) u_valid (.clk_i, .rst_i, .valid_i(place_valid_o), .valid_o);
 
   logic unused_bits;
   assign unused_bits = &{1'b0, span_i, draw_i, job_valid};

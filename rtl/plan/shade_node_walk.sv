@@ -49,14 +49,14 @@ module shade_node_walk #(
 
   // ---- the stretch in work: whether a node goes and whether it is the last one is known a clock before -----------------
   logic busy_q, first_q, shared_q, last_record_q, go_q, end_record_q, end_run_q;
-  logic busy_d, first_d, shared_d, last_record_d, end_run, credit, pace;
+  logic busy_d, first_d, shared_d, last_record_d, end_run, some, credit, pace;
   logic [1:0] slot_q, slot_d, last_slot_q, last_slot_d;
   logic [COUNT_W-1:0] records_q;
   shade_pkg::stretch_t stretch_q;
   assign end_run = go_q && end_run_q;
   assign load    = next_valid && (!busy_q || end_run);
   shade_credit #(.LOG2(CREDIT_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(go_q && first_q), .give_i(credit_i), .some_o(), .soon_o(credit)
+    .clk_i, .rst_i, .take_i(go_q && first_q), .give_i(credit_i), .some_o(some), .soon_o(credit)
   );
   always_comb begin
     busy_d        = load || (busy_q && !end_run);
@@ -148,5 +148,5 @@ module shade_node_walk #(
   shade_assert u_phase (.clk_i, .rst_i, .holds_i(!valid_o || FOLD == 1 || phase_i == '0));
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, phase_i, stretch_q.records, stretch_q.single, stretch_q.shared, stretch_q.fresh};
+  assign unused_bits = &{1'b0, phase_i, some, stretch_q.records, stretch_q.single, stretch_q.shared, stretch_q.fresh};
 endmodule

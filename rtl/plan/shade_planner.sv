@@ -113,6 +113,9 @@ module shade_planner #(
   // count - 1 = before + low for direct ones, count - 2 for others: the last arc has bits(low - 1) or bits(low)
   logic [COUNT_W-1:0] ends, before_q21, before_q22, low, low_q22, main_q22, main_q23, last_count_q23;
   logic [LOG2_W-1:0] last_log2_q23;
+  logic [1:0] fours_q21, ones_q21, ones_q22, low2_q22;
+  assign {fours_q21, ones_q21} = log2_q21;
+  assign low2_q22 = 2'(low_q22);
   assign ends = COUNT_W'(direct_q20 ? 1 : 2);
   assign low  = before_q21 & ~({COUNT_W{1'b1}} << log2_q21);
   always_ff @(posedge clk_i) begin
@@ -120,19 +123,19 @@ module shade_planner #(
 
     before_q22 <= before_q21 & ~low;
     low_q22    <= low;
-    main_q22   <= before_q21 >> {log2_q21[3:2], 2'b00};
+    main_q22   <= before_q21 >> {fours_q21, 2'b00};
+    ones_q22   <= ones_q21;
     log2_q22   <= log2_q21;
     direct_q22 <= direct_q21;
 
-    main_q23       <= main_q22 >> log2_q22[1:0];
+    main_q23       <= main_q22 >> ones_q22;
     last_count_q23 <= count_q22 - before_q22;
-    last_log2_q23  <= bits(direct_q22 ? COUNT_W'({&low_q22[1:0], low_q22[1] && !low_q22[0]}) : low_q22);
+    last_log2_q23  <= bits(direct_q22 ? COUNT_W'({low2_q22 == 2'd3, low2_q22 == 2'd2}) : low_q22);
     log2_q23       <= log2_q22;
   end
 
   // ---- degree of the last record ---------------------------------------------------------------------------------
-  logic [LOG2_W-1:0] shorter_q24;
-  logic [1:0] shorter_q25;
+  logic [1:0] fours_q24, ones_q24, ones_q25;  // how many times shorter it is
   logic [KAPPA_W-1:0] kappa_q25, kappa_q26;
   logic linear_q27, quadratic_q27;
   logic [DEGREE_W-1:0] last_degree_q28;
@@ -141,11 +144,11 @@ module shade_planner #(
   shade_delay #(.WIDTH(1), .DEPTH(5)) u_direct (.clk_i, .d_i(direct_q22), .q_o(direct_q27));
   shade_delay #(.WIDTH(3), .DEPTH(3)) u_few (.clk_i, .d_i(few_q24), .q_o(few_q27));
   always_ff @(posedge clk_i) begin
-    shorter_q24   <= log2_q23 - last_log2_q23;
+    {fours_q24, ones_q24} <= log2_q23 - last_log2_q23;
     for (int i = 0; i < 3; i++) few_q24[i] <= last_count_q23 <= COUNT_W'(i + 2);
-    shorter_q25   <= shorter_q24[1:0];
-    kappa_q25     <= kappa_q24 >> {shorter_q24[3:2], 3'b000};
-    kappa_q26     <= kappa_q25 >> {shorter_q25, 1'b0};
+    ones_q25      <= ones_q24;
+    kappa_q25     <= kappa_q24 >> {fours_q24, 3'b000};
+    kappa_q26     <= kappa_q25 >> {ones_q25, 1'b0};
     linear_q27    <= kappa_q26 <= planner_i.t1;
     quadratic_q27 <= kappa_q26 <= planner_i.t2;
 

@@ -57,8 +57,8 @@ module shade_patch_dots (
     if (rst_i) {busy_q, valid_q} <= 2'b00;
   end
   shade_dot3 #(.OUT_F(shade_pkg::PATCH_DOT_F)) u_dot (
-    .clk_i, .rst_i, .valid_i(valid_q), .ax_i(a_q[0+:W]), .ay_i(a_q[W+:W]), .az_i(a_q[2*W+:W]), .bx_i(b_q[0+:W]),
-    .by_i(b_q[W+:W]), .bz_i(b_q[2*W+:W]), .valid_o, .d_o(dot_o)
+    .clk_i, .a_i(a_q), .b_i(b_q), .d_o(dot_o)
   );
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_DOT3)) u_valid (.clk_i, .rst_i, .valid_i(valid_q), .valid_o);
   shade_delay #(.WIDTH(4), .DEPTH(shade_pkg::LATENCY_DOT3)) u_which (.clk_i, .d_i(which_q), .q_o(which_o));
 endmodule

@@ -60,7 +60,8 @@ module shade_patch_light (
     short_q1 <= p[DOT_W-1] || p[DOT_W-2:DOT_F-2] == '0;
     long_q1  <= !p[DOT_W-1] && p[DOT_W-2:DOT_F+2] != '0;
   end
-  shade_rsqrt u_rsqrt (.clk_i, .rst_i, .valid_i(valid_q1), .z_i(z_q1), .valid_o(valid_q11), .y_o(y), .e_o(e), .zero_o());
+  shade_rsqrt u_rsqrt (.clk_i, .z_i(z_q1), .y_o(y), .e_o(e), .zero_o());
+  shade_valid #(.DEPTH(RSQRT)) u_valid_q11 (.clk_i, .rst_i, .valid_i(valid_q1), .valid_o(valid_q11));
   shade_delay #(.WIDTH(2), .DEPTH(RSQRT)) u_flags (.clk_i, .d_i({short_q1, long_q1}), .q_o({short_q11, long_q11}));
   shade_delay #(.WIDTH(2 * W), .DEPTH(RSQRT + 2)) u_lh (.clk_i, .d_i({h_q1, l_q1}), .q_o({h_q13, l_q13}));
   shade_delay #(.WIDTH(DOT_W), .DEPTH(RSQRT + 2 + MUL)) u_y (.clk_i, .d_i(y_q1), .q_o(y_q15));

@@ -35,7 +35,7 @@ from polyshade.scripts.drawings import tables
 from polyshade.scripts.flow import documents, tools
 from polyshade.scripts.flow.points import REFUSED, points
 from polyshade.sim.errors import UserError
-from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources
+from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources, yardsticks
 from polyshade.sim.tools import environment, package
 from polyshade.sim.tools import verilator as installed
 from polyshade.sim.units import cases
@@ -76,12 +76,17 @@ def items() -> Iterator[Item]:
     yield Item("tables", tables.check)
     for module, path in modules().items():
         yield Item(f"mirror {module}", partial(mirror, module, path))
-    for module in modules():
+    for module in [*modules(), *comparisons()]:
         for point in REFUSED.get(module, []):
             yield Item(f"refused {label(module, point)}", partial(refused, module, point))
         for number, point in enumerate(points(module)):
             yield Item(f"verilator {label(module, point)}", partial(verilator, module, point))
             yield Item(f"yosys {label(module, point)}", partial(yosys, module, point), number > 1)
+
+
+def comparisons() -> dict[str, Path]:
+    """The yardsticks that are built of the product's modules, whose rules they keep."""
+    return {module: path for module, path in yardsticks().items() if module.startswith("shade_")}
 
 
 def file_list() -> list[str]:
@@ -246,7 +251,7 @@ def counted(texts: list[str]) -> dict[str, float]:
 def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
     """In a folder of its own, to which no path of the list is relative."""
     options = [f"-G{name}={value}" for name, value in point.items()]
-    files = [RTL / "lint.vlt", "-F", RTL / "shade.f"]
+    files = [RTL / "lint.vlt", "-F", RTL / "shade.f", *(path for name, path in comparisons().items() if name == module)]
     command = [installed().program, "--lint-only", "-Wall", "--top-module", module, *options, *files]
     (BUILD / "lint").mkdir(parents=True, exist_ok=True)
     return subprocess.run(command, cwd=BUILD / "lint", env=environment(), capture_output=True, text=True)

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import normal
+from polyshade.golden.types import METRIC
 from polyshade.sim.units.case import (
     FORMS,
     ONE,
@@ -30,7 +31,18 @@ INVC = {
     ("paper", 1): (k.INVC1_0, k.INVC1_C, 0, 0),
 }
 DEGREES = {"refined": (2,), "paper": (2, 1)}
-NODE_PORTS = (*(f"n{n}{c}_o" for n in range(5) for c in "xyz"), "clamped_o")
+AXES = ("x", "y", "z")
+NODE_PORTS = (*(f"arc_o.n{n}.{c}" for n in range(5) for c in AXES), "clamped_o")
+
+
+def _axes(port: str) -> tuple[str, ...]:
+    """The components of a vector at a port."""
+    return tuple(f"{port}.{axis}" for axis in AXES)
+
+
+def _named(vector: Iterable[np.ndarray], port: str = "n_o") -> Arrays:
+    """A vector at a port."""
+    return dict(zip(_axes(port), vector, strict=True))
 
 
 def unit_vectors(rng: np.random.Generator, rows: int) -> np.ndarray:
@@ -40,7 +52,7 @@ def unit_vectors(rng: np.random.Generator, rows: int) -> np.ndarray:
 
 
 def arcs(rng: np.random.Generator, rows: int) -> Arrays:
-    """Pairs of vectors ax_i .. bz_i and c_i, S1.16.
+    """Pairs of vectors a_i, b_i and c_i, S1.16.
 
     An eighth each: components from the corners, vectors of a few ulp, equal unit vectors, opposite ones, axes; the rest
     are unit vectors with angles of any size. c is the rounded cosine, in a quarter of the rows any number.
@@ -58,7 +70,7 @@ def arcs(rng: np.random.Generator, rows: int) -> Arrays:
     low, high = signed_range(k.INTENSITY_W)
     any_c = mixed({"c_i": (low, high)}, ONE, ONE + 1, ONE - 1)(rng, rows)["c_i"]
     c = np.where(rng.random(rows) < 0.25, any_c, normal.dot3(*a, *b).clip(low, high))
-    return dict(zip(("ax_i", "ay_i", "az_i", "bx_i", "by_i", "bz_i", "c_i"), (*a, *b, c), strict=True))
+    return dict(zip((*_axes("a_i"), *_axes("b_i"), "c_i"), (*a, *b, c), strict=True))
 
 
 def ends(names: str = "ab") -> Callable[[np.random.Generator, int], Arrays]:
@@ -66,13 +78,18 @@ def ends(names: str = "ab") -> Callable[[np.random.Generator, int], Arrays]:
 
     def make(rng: np.random.Generator, rows: int) -> Arrays:
         components = list(arcs(rng, rows).values())[:6]
-        return dict(zip((f"{v}{c}_i" for v in names for c in "xyz"), components, strict=True))
+        return dict(zip((f"{v}{c}_i" for v in names for c in AXES), components, strict=True))
 
     return make
 
 
+def _pairs(rng: np.random.Generator, rows: int) -> Arrays:
+    """The two vectors of :func:`arcs`."""
+    return {name: value for name, value in arcs(rng, rows).items() if name != "c_i"}
+
+
 def _ends(i: Arrays) -> list[np.ndarray]:
-    return [i[f"{v}{c}_i"] for v in "ab" for c in "xyz"]
+    return [i[part] for part in (*_axes("a_i"), *_axes("b_i"))]
 
 
 def _normalize(form: str) -> Iterator[Case]:
@@ -81,18 +98,16 @@ def _normalize(form: str) -> Iterator[Case]:
         return
 
     def unit(i: Arrays) -> Arrays:
-        components = normal.normalize(i["x_i"], i["y_i"], i["z_i"])
-        zero = (i["x_i"] | i["y_i"] | i["z_i"]) == 0
-        return dict(zip(("x_o", "y_o", "z_o"), components, strict=True)) | {"zero_o": zero.astype(np.int64)}
+        x, y, z = (i[part] for part in _axes("v_i"))
+        zero = (x | y | z) == 0
+        return _named(normal.normalize(x, y, z)) | {"zero_o": zero.astype(np.int64)}
 
     def exact(i: Arrays) -> Arrays:
-        vector = [i[f"{c}_i"].astype(Real) for c in "xyz"]
+        vector = [i[part].astype(Real) for part in _axes("v_i")]
         length = np.sqrt(sum(c * c for c in vector))
-        return unit(i) | {
-            f"{c}_o": v * ONE / np.where(length == 0, 1, length) for c, v in zip("xyz", vector, strict=True)
-        }
+        return unit(i) | _named(v * ONE / np.where(length == 0, 1, length) for v in vector)
 
-    vector = {f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"}
+    vector = dict.fromkeys(_axes("v_i"), signed_range(k.INTENSITY_W))
     yield Case(
         "shade_normalize", form, {}, unit, exact, exact, shortened(mixed(vector, ONE, -ONE), k.INTENSITY_W), None,
         k.LATENCY_NORMALIZE, bound=5 / 8,
@@ -103,12 +118,12 @@ def _unit(form: str) -> Iterator[Case]:
     """Interpolated normals, most of length 1/8 to 4; short ones, which stay too short, and bypassed ones."""
     if form != "refined":
         return
-    vector = {f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"}
-    ports = ("x_o", "y_o", "z_o", "zero_o", "short_o")
+    vector = dict.fromkeys(_axes("v_i"), signed_range(k.INTENSITY_W))
+    ports = (*_axes("unit_o.normal"), "unit_o.zero", "unit_o.too_short")
 
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
         length = np.ldexp(1 + rng.random(rows), rng.integers(k.NODE_F - 3, k.NODE_F + 2, rows))
-        usual = np.rint(unit_vectors(rng, rows) * length / ONE).clip(*vector["x_i"]).astype(np.int64)
+        usual = np.rint(unit_vectors(rng, rows) * length / ONE).clip(*signed_range(k.INTENSITY_W)).astype(np.int64)
         other = shortened(mixed(vector, ONE // 2, -ONE // 2), k.INTENSITY_W)(rng, rows)
         chosen = rng.random(rows) < 0.75
         mixture = {name: np.where(chosen, v, other[name]) for name, v in zip(vector, usual, strict=True)}
@@ -123,7 +138,7 @@ def _unit(form: str) -> Iterator[Case]:
         mantissa, exponent = np.frexp(np.sqrt((v**2).sum(axis=0)))
         root = 1 / np.where(mantissa == 0, 1, mantissa)
         n = v * root * np.ldexp(Real(ONE), -np.maximum(exponent, k.NODE_F - 2))
-        n = np.where(i["bypass_i"], (2 * v).clip(*vector["x_i"]), n)
+        n = np.where(i["bypass_i"], (2 * v).clip(*signed_range(k.INTENSITY_W)), n)
         return golden(i) | dict(zip(ports, n, strict=False))
 
     for fold, latency in ((1, k.LATENCY_UNIT), (6, k.LATENCY_UNIT_FOLDED)):
@@ -146,34 +161,34 @@ def _vectors(form: str) -> Iterator[Case]:
 
         yield Case(
             "shade_dot3", form, {"OUT_F": out_f}, lambda i, f=out_f: {"d_o": normal.dot3(*_ends(i), f=f)}, dot, dot,
-            ends(), None, k.LATENCY_DOT3, unit_f=out_f,
+            _pairs, None, k.LATENCY_DOT3, unit_f=out_f,
         )  # fmt: skip
-
-    def named(vector) -> Arrays:
-        return dict(zip(("x_o", "y_o", "z_o"), vector, strict=True))
-
-    def scaled(i: Arrays) -> Arrays:
-        return named(i[f"{c}_i"] * (i["s_i"].astype(Real) / (1 << k.INVC_F)) for c in "xyz")
 
     factor = (0, (1 << k.INVC_F) - 1)
-    vectors = mixed({f"{c}_i": signed_range(k.INTENSITY_W) for c in "xyz"} | {"s_i": factor}, ONE, -ONE)
-    for fold, latency in ((1, k.LATENCY_SCALE3), (3, k.LATENCY_SCALE3_FOLDED)):
-        yield Case(
-            "shade_scale3", form, {"FOLD": fold}, lambda i: named(normal.scale3(*(i[f"{n}_i"] for n in "xyzs"))),
-            scaled, scaled, vectors, None, latency, fold,
-        )  # fmt: skip
+    scale = dict.fromkeys(_axes("v_i"), signed_range(k.INTENSITY_W)) | {"s_i": factor}
+    for gain in (0, 1):
+
+        def golden(i: Arrays, gain: int = gain) -> Arrays:
+            return _named(normal.scale3(*(i[part] for part in scale), gain))
+
+        def scaled(i: Arrays, gain: int = gain) -> Arrays:
+            return _named(i[part] * (i["s_i"].astype(Real) / (1 << k.INVC_F - gain)) for part in _axes("v_i"))
+
+        # |v s 2^gain| < 2
+        vectors = mixed(scale | ({"s_i": (0, 1 << k.INVC_F - 1)} if gain else {}), ONE, -ONE)
+        yield Case("shade_scale3", form, {"GAIN": gain}, golden, scaled, scaled, vectors, None, k.LATENCY_SCALE3)
 
     for wait in (1, 4):
 
         def golden(i: Arrays) -> Arrays:
-            return named(normal.bisect(*_ends(i), i["invc_i"]))
+            return _named(normal.bisect(*_ends(i), i["invc_i"]))
 
         def exact(i: Arrays) -> Arrays:
-            return named(_bisected(*_ends(i), i["invc_i"].astype(Real) / (1 << k.INVC_F)))
+            return _named(_bisected(*_ends(i), i["invc_i"].astype(Real) / (1 << k.INVC_F)))
 
         yield Case(
             "shade_bisect", form, {"WAIT": wait}, golden, exact, exact,
-            lambda rng, rows: ends()(rng, rows) | mixed({"invc_i": factor}, ONE)(rng, rows), None,
+            lambda rng, rows: _pairs(rng, rows) | mixed({"invc_i": factor}, ONE)(rng, rows), None,
             wait + k.LATENCY_SCALE3, late={"invc_i": wait},
         )  # fmt: skip
 
@@ -214,16 +229,17 @@ def _cosines(form: str) -> Iterator[Case]:
 
         def golden(i: Arrays, degree: int = degree) -> Arrays:
             values = normal.invc(i["c_i"], FORMS[form], degree)
-            return dict(zip(("invc_o", "half_o", "clamped_o"), values, strict=True))
+            return dict(zip(("invc_o.invc", "invc_o.half", "invc_o.clamped"), values, strict=True))
 
         def value(i: Arrays, function: Callable, golden=golden) -> Arrays:
             invc, half = function(cosine(i["c_i"]))
-            return golden(i) | {"invc_o": invc * (1 << k.INVC_F), "half_o": half * ONE}
+            return golden(i) | {"invc_o.invc": invc * (1 << k.INVC_F), "invc_o.half": half * ONE}
 
         yield Case(
             "shade_invc", form, {"FORM": FORMS[form], "DEGREE": degree}, golden,
             lambda i, value=value, d=degree: value(i, lambda c: _invc(form, d, c)),
-            lambda i, value=value: value(i, true_invc), None, everything, k.LATENCY_INVC, more_f={"invc_o": k.INVC_F},
+            lambda i, value=value: value(i, true_invc), None, everything, k.LATENCY_INVC,
+            more_f={"invc_o.invc": k.INVC_F},
             bound=0.82,  # as half, in ulp of U0.18
         )  # fmt: skip
 
@@ -246,7 +262,7 @@ def _nodes(form: str) -> Iterator[Case]:
     """Midpoint and node chain; ideal: the same sums, scaled by the true functions of c."""
     for degree in DEGREES[form]:
         point = {"FORM": FORMS[form], "DEGREE": degree}
-        outputs = ("x_o", "y_o", "z_o", "half_o", "clamped_o")
+        outputs = (*_axes("n_o"), "half_o", "clamped_o")
 
         def middle(i: Arrays, point=point, outputs=outputs) -> Arrays:
             values = normal.midpoint(*_ends(i), i["c_i"], point["FORM"], point["DEGREE"])
@@ -285,18 +301,20 @@ def _metric(form: str) -> Iterator[Case]:
     """P4's metrics: how a line is normalized."""
     if form != "paper":
         return
-    ports = ["d1a_o", "d2_o", "needs_d1_o", "needs_d2_o", "clamped_o", "m_error_o", "threshold_error_o"]
+    ports = [f"metric_o.{field.name}" for field in METRIC.fields]
 
     def golden(i: Arrays) -> Arrays:
         return dict(zip(ports, normal.metric(i["c_i"], i["m_i"], i["threshold_i"]), strict=True))
 
     def exact(i: Arrays) -> Arrays:
         c, m = cosine(i["c_i"]), i["m_i"].clip(k.METRIC_M_MIN, k.METRIC_M_MAX)
-        return golden(i) | {"d1a_o": k.D1_0 + k.D1_C * c + k.D1_M * m, "d2_o": _invc(form, 2, c)[1] * ONE}
+        d1a, d2 = k.D1_0 + k.D1_C * c + k.D1_M * m, _invc(form, 2, c)[1] * ONE
+        return golden(i) | {"metric_o.d1a": d1a, "metric_o.d2": d2}
 
     def ideal(i: Arrays) -> Arrays:
         c, m = cosine(i["c_i"]), i["m_i"].clip(k.METRIC_M_MIN, k.METRIC_M_MAX)
-        return golden(i) | {"d1a_o": np.cos(np.arccos(c) / m) * ONE, "d2_o": true_invc(c)[1] * ONE}
+        d1a, d2 = np.cos(np.arccos(c) / m) * ONE, true_invc(c)[1] * ONE
+        return golden(i) | {"metric_o.d1a": d1a, "metric_o.d2": d2}
 
     def all_of() -> Iterator[Arrays]:
         rng = np.random.default_rng(1)
@@ -313,7 +331,7 @@ def _increment(form: str) -> Iterator[Case]:
     """Triangles of normals: starts, pixels, lines. The exact value keeps every bit of the sums."""
     if form != "refined":
         return
-    names = [f"{c}{kind}_i" for kind in "ngl" for c in "xyz"]
+    names = [part for kind in "ngl" for part in _axes(f"{kind}_i")]
 
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
         unit = 1 << k.STEP_F
@@ -323,14 +341,14 @@ def _increment(form: str) -> Iterator[Case]:
         return values(rng, rows) | {"first_i": first, "line_i": (rng.random(rows) < 0.1).astype(np.int64)}
 
     def golden(i: Arrays) -> Arrays:
-        return {
-            f"{c}_o": normal.increment(i["first_i"], i["line_i"], *(i[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz"
-        }
+        return _named(
+            normal.increment(i["first_i"], i["line_i"], *(i[f"{kind}_i.{c}"] for kind in "ngl")) for c in AXES
+        )
 
     def exact(i: Arrays) -> Arrays:
         ulp = 1 << k.STEP_F - k.INTENSITY_F
-        sums = (normal.increment_sum(i["first_i"], i["line_i"], *(i[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz")
-        return {f"{c}_o": value.astype(Real) / ulp for c, value in zip("xyz", sums, strict=True)}
+        sums = (normal.increment_sum(i["first_i"], i["line_i"], *(i[f"{kind}_i.{c}"] for kind in "ngl")) for c in AXES)
+        return _named(value.astype(Real) / ulp for value in sums)
 
     yield Case("shade_increment", form, {}, golden, exact, exact, vectors, None, k.LATENCY_INCREMENT, ordered=True)
 

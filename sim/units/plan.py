@@ -8,8 +8,11 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import plan
+from polyshade.golden.types import CRITERION
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, mixed, signed_range, thresholds
 from polyshade.sim.units.normal import DEGREES, cosine, true_invc
+
+EDGES = ("cosines_i.ab", "cosines_i.bc", "cosines_i.ca")
 
 
 def _criterion(form: str) -> Iterator[Case]:
@@ -17,7 +20,7 @@ def _criterion(form: str) -> Iterator[Case]:
     low, high = signed_range(k.INTENSITY_W)
 
     def exact_eta(i: Arrays, degree: int) -> np.ndarray:
-        c = [cosine(i[f"{edge}_i"]) for edge in ("ab", "bc", "ca")]
+        c = [cosine(i[edge]) for edge in EDGES]
         if form == "refined":
             return sum(k.ETA_U * (1 - x) + k.ETA_UU * (1 - x) ** 2 + k.ETA_UUUU * (1 - x) ** 4 for x in c)
         k0, k1, k2 = (k.ETA2_0, k.ETA2_C, k.ETA2_CC) if degree == 2 else (k.ETA1_0, k.ETA1_C, 0)
@@ -30,12 +33,12 @@ def _criterion(form: str) -> Iterator[Case]:
         flat = np.full(len(c), ONE)
         for ab, bc, ca in ((c, flat, flat), (flat, c, flat), (flat, flat, c), (c, c, c)):
             threshold = thresholds(rng, len(c), 26214, k.ETA_W)
-            yield {"ab_i": ab, "bc_i": bc, "ca_i": ca, "threshold_i": threshold}
+            yield dict(zip(EDGES, (ab, bc, ca), strict=True)) | {"threshold_i": threshold}
 
     def random(rng: np.random.Generator, rows: int) -> Arrays:
         """Triangles of every flatness, down to one ulp of a cosine."""
         rest = np.ldexp(rng.random((3, rows)), rng.integers(0, 18, rows))
-        dense = {f"{edge}_i": (ONE - u).astype(np.int64) for edge, u in zip(("ab", "bc", "ca"), rest, strict=True)}
+        dense = {edge: (ONE - u).astype(np.int64) for edge, u in zip(EDGES, rest, strict=True)}
         free = mixed(dict.fromkeys(dense, (low, high)) | {"threshold_i": signed_range(k.ETA_W)}, ONE)(rng, rows)
         chosen = rng.random(rows) < 0.75
         return free | {name: np.where(chosen, value, free[name]) for name, value in dense.items()}
@@ -45,7 +48,7 @@ def _criterion(form: str) -> Iterator[Case]:
 
         def make(rng: np.random.Generator, rows: int) -> Arrays:
             i = random(rng, rows)
-            eta = plan.criterion(i["ab_i"], i["bc_i"], i["ca_i"], 0, FORMS[form], degree)[0]
+            eta = plan.criterion(*(i[edge] for edge in EDGES), 0, FORMS[form], degree)[0]
             near = (eta + rng.integers(-1, 2, rows)).clip(*signed_range(k.ETA_W))
             return i | {"threshold_i": np.where(rng.random(rows) < 0.5, near, i["threshold_i"])}
 
@@ -54,16 +57,15 @@ def _criterion(form: str) -> Iterator[Case]:
     for degree in DEGREES[form]:
 
         def eta(i: Arrays, degree: int = degree) -> Arrays:
-            edges = (i[f"{edge}_i"] for edge in ("ab", "bc", "ca"))
-            values = plan.criterion(*edges, i["threshold_i"], FORMS[form], degree)
-            return dict(zip(("eta_o", "normalize_o", "clamped_o", "threshold_error_o"), values, strict=True))
+            values = plan.criterion(*(i[edge] for edge in EDGES), i["threshold_i"], FORMS[form], degree)
+            return dict(zip((f"criterion_o.{field.name}" for field in CRITERION.fields), values, strict=True))
 
         def exact(i: Arrays, eta=eta, degree: int = degree) -> Arrays:
-            return eta(i) | {"eta_o": exact_eta(i, degree) * (1 << k.ETA_F - k.CONSTANT_F)}
+            return eta(i) | {"criterion_o.eta": exact_eta(i, degree) * (1 << k.ETA_F - k.CONSTANT_F)}
 
         def ideal(i: Arrays, eta=eta) -> Arrays:
-            true = sum(1 - true_invc(cosine(i[f"{edge}_i"]))[1] for edge in ("ab", "bc", "ca"))
-            return eta(i) | {"eta_o": true * (1 << k.ETA_F)}
+            true = sum(1 - true_invc(cosine(i[edge]))[1] for edge in EDGES)
+            return eta(i) | {"criterion_o.eta": true * (1 << k.ETA_F)}
 
         for vectors, all_of in ((None, every_cosine), (beside(degree), None)):
             yield Case(

@@ -6,7 +6,7 @@ import random
 import cocotb
 import numpy as np
 from polyshade.golden import contract as k
-from polyshade.golden.types import ERRORS
+from polyshade.golden.types import TOLD
 
 from tb.bench import Bench, Source, checked, no_path
 from tb.core.vectors import set_draw, spans
@@ -23,13 +23,13 @@ def test_cocotb(point):
 
 
 class Lanes:
-    """Ready lanes at random; ``given``: the spans and their lanes; ``told``: good_o, bad_o and errors, counted."""
+    """Ready lanes at random; ``given``: the spans and their lanes; ``told``: told_o, counted."""
 
     def __init__(self, bench: Bench, ready: float = 1.0):
         self.bench, self.ready, self.lanes = bench, ready, bench.parameter("LANES")
         self.given: list[tuple[int, int]] = []
         self.clocks: list[int] = []
-        self.told = dict.fromkeys(("good", "bad", *(leaf.name for leaf in ERRORS.leaves())), 0)
+        self.told = dict.fromkeys((leaf.name.removeprefix("error.") for leaf in TOLD.leaves()), 0)
         bench.dut.hold_i.value = 0
         cocotb.start_soon(self._run())
 
@@ -54,11 +54,9 @@ class Lanes:
                 self.clocks.append(self.bench.clock)
                 left[best] += self.given[-1][0] >> k.SPAN_COUNT_LSB & (1 << k.COUNT_W) - 1
             best = loads.index(min(loads))
-            self.told["good"] += int(dut.good_o.value)
-            self.told["bad"] += int(dut.bad_o.value)
-            error = int(dut.error_o.value)
-            for leaf in ERRORS.leaves():
-                self.told[leaf.name] += error >> leaf.lsb & 1
+            told = int(dut.told_o.value)
+            for leaf in TOLD.leaves():
+                self.told[leaf.name.removeprefix("error.")] += told >> leaf.lsb & 1
 
 
 def setup(bench: Bench, ready: float = 1.0, **draw: int) -> tuple[Source, Lanes]:
@@ -175,7 +173,7 @@ async def paths(bench: Bench) -> None:
     """s_axis_span_tready follows no input of its stream, nor does what the lanes see."""
     source, lanes = setup(bench, 0.5)
     inputs = [SPAN + name for name in ("tvalid", "tdata", "tkeep", "tlast")]
-    cocotb.start_soon(no_path(bench, inputs, [SPAN + "tready", "valid_o", "span_o", "good_o", "bad_o", "error_o"]))
+    cocotb.start_soon(no_path(bench, inputs, [SPAN + "tready", "valid_o", "span_o", "told_o"]))
     beats = [(data, WHOLE, 1) for (data,) in spans(bench, np.arange(1, 30)).words()]
     await source.send(beats, 0.3)
     await bench.until(lambda: len(lanes.given) == len(beats), 200, "all spans")

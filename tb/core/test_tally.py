@@ -3,7 +3,7 @@
 
 import random
 
-from polyshade.golden.types import NODE_FLAGS
+from polyshade.golden.types import COUNTS, ERRORS, NODE_FLAGS, STATUS, TOLD
 
 from tb.bench import Bench, checked
 from tb.runner import points, simulate
@@ -22,15 +22,24 @@ async def sums(bench: Bench) -> None:
     for _ in range(2000):
         valid, ready, lit = (random.getrandbits(lanes) for _ in range(3))
         told = [random.getrandbits(bits) for _ in range(lanes)]
+        packet = random.getrandbits(TOLD.width)
         in_reset = random.random() < 0.01
         for name, value in {"valid": valid, "ready": ready, "lit": lit}.items():
             getattr(dut, f"{name}_i").value = value
         dut.flags_i.value = sum(word << bits * lane for lane, word in enumerate(told))
+        dut.told_i.value = packet
         dut.rst_i.value = in_reset
         await bench.tick()
         bench.equal(int(dut.given_o.value), valid & ready, "given_o")
-        bench.equal((int(dut.evaluations_o.value), int(dut.flags_o.value)), lights, "evaluations_o, flags_o")
-        bench.equal((int(dut.pixels_o.value), int(dut.stalls_o.value)), came[0], "pixels_o, stalls_o")
+        counts, events, door = (
+            {leaf.name: int(port.value) >> leaf.lsb & (1 << leaf.width) - 1 for leaf in struct.leaves()}
+            for struct, port in ((COUNTS, dut.counts_o), (STATUS, dut.events_o), (TOLD, dut.told_i))
+        )
+        nodes = int(dut.events_o.value) >> ERRORS.width
+        bench.equal((counts["evaluations"], nodes), lights, "evaluations, events of points")
+        bench.equal((counts["pixels"], counts["stalls"]), came[0], "pixels, stalls")
+        bench.equal((counts["spans"], counts["errors"]), (door["good"], door["bad"]), "spans, errors")
+        bench.equal(all(events[leaf] == door[leaf] for leaf in door if "." in leaf), True, "events of packets")
         came = [came[1], ((valid & ready).bit_count(), (valid & ~ready).bit_count())]
         flags = 0
         for lane, word in enumerate(told):

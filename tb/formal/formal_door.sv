@@ -18,10 +18,10 @@ module formal_door #(
   input logic [LANES-1:0] given_i
 );
   localparam int LEFT_W = 4;
-  logic ready, busy, good, bad, take, whole, wanted;
+  logic ready, busy, take, whole, wanted;
   logic [LANES-1:0] valid;
   shade_pkg::span_t offered, span;
-  shade_pkg::errors_t error;
+  shade_pkg::told_t told;
   always_comb begin
     offered     = '0;
     offered.tag = 16'(tag_i);
@@ -35,7 +35,7 @@ module formal_door #(
   shade_door #(.LANES(LANES), .PATH_NORMALS(0)) u_dut (
     .clk_i, .rst_i, .s_axis_span_tvalid(valid_i), .s_axis_span_tready(ready), .s_axis_span_tdata(offered),
     .s_axis_span_tkeep({32{keep_i}}), .s_axis_span_tlast(last_i), .draw_i('0), .hold_i, .valid_o(valid), .room_i,
-    .ready_i, .given_i, .span_o(span), .busy_o(busy), .good_o(good), .bad_o(bad), .error_o(error)
+    .ready_i, .given_i, .span_o(span), .busy_o(busy), .told_o(told)
   );
 
   logic started_q = 1'b0;
@@ -94,10 +94,10 @@ module formal_door #(
       // mutant: best_q & ready_i : '0 => best_q & ready_i & room_i : '0
       progress : assert (!(full_q && &ready_i) || valid != '0);
       // Every packet is told of once, two clocks after its first beat, as good or bad.
-      // mutant: bad_o            <= first_q && !good_q => bad_o            <= first_q
-      told : assert (good == good_q[1] && bad == bad_q[1]);
+      // mutant: told_o.bad       <= first_q && !good_q => told_o.bad       <= first_q
+      packet_told : assert (told.good == good_q[1] && told.bad == bad_q[1]);
       // mutant: seen_q.packet    <= !whole => seen_q.packet    <= !s_axis_span_tlast
-      cause : assert (bad == (error.empty || error.too_long || error.packet));
+      cause : assert (told.bad == (told.error.empty || told.error.too_long || told.error.packet));
       // busy while a span waits or has pixels that are not drawn yet.
       // mutant: drawing != '0; => |drawing[0];
       busy_told : assert (!(full_q || left_q != '0) || busy);

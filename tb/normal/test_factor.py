@@ -24,8 +24,7 @@ async def stream(bench: Bench, gap: float) -> None:
     threshold = np.where(rng.random(rows) < 0.2, rng.choice([-1, one, one + 1], rows), rng.integers(0, one, rows))
     middle, needs_d1, variant = rng.integers(0, 2, (2, rows))[0], rng.integers(0, 2, rows), rng.integers(0, 8, rows)
     inputs = {name: whole(VEC, dict(zip("xyz", v, strict=True))) for name, v in (("a_i", a), ("b_i", b))}
-    inputs |= {"middle_i": middle, "variant_i": variant, "needs_d1_i": needs_d1}
-    mask = (1 << k.INTENSITY_W) - 1
+    choice = {"middle": middle, "variant": variant, "needs_d1": needs_d1, "threshold": threshold}
+    inputs |= {f"choice_i.{name}": value for name, value in choice.items()}
     wanted = factor(a, b, middle, variant, needs_d1, threshold)
-    inputs["threshold_i"] = (threshold & mask).tolist()
     await bench.pipeline(inputs, {"factor_o": wanted}, k.LATENCY_FACTOR_S, gap=gap)

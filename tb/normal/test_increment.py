@@ -23,8 +23,8 @@ async def triangles(bench: Bench, gap: float) -> None:
     unit = 1 << k.STEP_F
     inputs = {"first_i": first, "line_i": line}
     for kind, reach in (("n", unit), ("g", unit >> 9), ("l", unit >> 9)):
-        inputs |= {f"{c}{kind}_i": bench.rng.integers(-reach, reach, rows, endpoint=True) for c in "xyz"}
-    outputs = {f"{c}_o": increment(first, line, *(inputs[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz"}
+        inputs |= {f"{kind}_i.{c}": bench.rng.integers(-reach, reach, rows, endpoint=True) for c in "xyz"}
+    outputs = {f"n_o.{c}": increment(first, line, *(inputs[f"{kind}_i.{c}"] for kind in "ngl")) for c in "xyz"}
     await bench.pipeline(inputs, outputs, k.LATENCY_INCREMENT, gap=gap)
 
 
@@ -39,14 +39,14 @@ async def triangle(bench: Bench) -> None:
     inputs = {"first_i": (x + y == 0).astype(int), "line_i": ((x == 0) & (y > 0)).astype(int)}
     for c, parts in zip("xyz", zip(corner, across, down, strict=True), strict=True):
         inputs |= {
-            f"{c}{kind}_i": np.full(x.size, round(part * scale)) for kind, part in zip("ngl", parts, strict=True)
+            f"{kind}_i.{c}": np.full(x.size, round(part * scale)) for kind, part in zip("ngl", parts, strict=True)
         }
     outputs = {}
     for c, begin, right, below in zip("xyz", corner, across, down, strict=True):
-        steps = (inputs[f"{c}{kind}_i"] for kind in "ngl")
-        outputs[f"{c}_o"] = increment(inputs["first_i"], inputs["line_i"], *steps)
+        steps = (inputs[f"{kind}_i.{c}"] for kind in "ngl")
+        outputs[f"n_o.{c}"] = increment(inputs["first_i"], inputs["line_i"], *steps)
         plane = (begin + x * right + y * below) * (1 << k.INTENSITY_F)
-        bench.equal(np.abs(outputs[f"{c}_o"] - plane).max() < 1, True, f"{c} on the plane within 1 ulp")
+        bench.equal(np.abs(outputs[f"n_o.{c}"] - plane).max() < 1, True, f"{c} on the plane within 1 ulp")
     await bench.pipeline(inputs, outputs, k.LATENCY_INCREMENT)
 
 
@@ -62,8 +62,10 @@ async def longest(bench: Bench) -> None:
     inputs = {"first_i": first, "line_i": np.zeros(rows, int)}
     for c, low, slope in zip("xyz", begin, step, strict=True):
         values = {"n": round(low * scale), "g": round(slope * scale), "l": 0}
-        inputs |= {f"{c}{kind}_i": np.full(rows, value) for kind, value in values.items()}
-    outputs = {f"{c}_o": increment(first, 0 * first, *(inputs[f"{c}{kind}_i"] for kind in "ngl")) for c in "xyz"}
+        inputs |= {f"{kind}_i.{c}": np.full(rows, value) for kind, value in values.items()}
+    outputs = {f"n_o.{c}": increment(first, 0 * first, *(inputs[f"{kind}_i.{c}"] for kind in "ngl")) for c in "xyz"}
     for c, value in zip("xyz", end, strict=True):
-        bench.equal(abs(outputs[f"{c}_o"][-1] - value * (1 << k.INTENSITY_F)) < 1, True, f"{c} at the end of the line")
+        bench.equal(
+            abs(outputs[f"n_o.{c}"][-1] - value * (1 << k.INTENSITY_F)) < 1, True, f"{c} at the end of the line"
+        )
     await bench.pipeline(inputs, outputs, k.LATENCY_INCREMENT)

@@ -8,14 +8,12 @@ import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden.plan import line
 from polyshade.golden.registers import after_reset
-from polyshade.golden.types import PLACE
+from polyshade.golden.types import PLACE, UNIT, whole
 
 from tb.bench import Bench, Mismatch, Source, checked
 from tb.core.vectors import set_draw, settings, spans
 from tb.plan.test_node_walk import phases
 from tb.runner import points, simulate
-
-PORTS = ("normal_o", "zero_o", "short_o")
 
 
 @points({}, {"FOLD": 6})
@@ -29,7 +27,7 @@ class Points:
     def __init__(self, bench: Bench, thrift: float = 0.0):
         self.bench, self.thrift = bench, thrift
         self.places: list[dict[str, int]] = []
-        self.normals: list[tuple[int, ...]] = []
+        self.normals: list[int] = []
         self.clocks: list[int] = []
         cocotb.start_soon(self._run())
 
@@ -45,7 +43,7 @@ class Points:
                 self.places.append({f.name: place >> f.lsb & (1 << f.width) - 1 for f in PLACE.leaves()})
                 spent, first = spent + first, self.places[-1]["last"]
             if int(dut.valid_o.value):
-                self.normals.append(tuple(int(getattr(dut, name).value) for name in PORTS))
+                self.normals.append(int(dut.unit_o.value))
                 self.clocks.append(self.bench.clock)
             if int(dut.rst_i.value):
                 spent, first = 0, 1
@@ -68,8 +66,8 @@ async def compare(bench: Bench, draw: dict[str, int], sent, points: Points) -> N
     await bench.until(lambda: len(points.normals) >= total, patience, f"{total} normals")
     await bench.tick(k.LATENCY_LINE_FOLDED)
     bench.equal((len(points.places), len(points.normals)), (total, total), "places and normals")
-    mask = (1 << k.INTENSITY_W) - 1
-    packed = sum((normal[:, i] & mask) << k.INTENSITY_W * i for i in range(3))
+    normals = dict(zip(("normal.x", "normal.y", "normal.z"), normal.T, strict=True))
+    units = whole(UNIT, normals | {"zero": zero, "too_short": short})
     wanted = {"slot": nodes.slot, "shared": nodes.shared, "last": np.append(np.diff(record), 1) != 0}
     wanted |= {f"head.{name}": getattr(nodes, name)[record] for name in ("count", "more", "degree", "log2")}
     wanted["head.tag"] = sent.tag[nodes.span[record]]
@@ -77,9 +75,7 @@ async def compare(bench: Bench, draw: dict[str, int], sent, points: Points) -> N
         what = f"point {index} (span {nodes.span[record[index]]}, record {record[index]})"
         for name, values in wanted.items():
             bench.equal(place[name], int(values[index]), f"{what}: {name}")
-        values = int(packed[index]), int(zero[index]), int(short[index])
-        for name, actual, value in zip(PORTS, given, values, strict=True):
-            bench.equal(actual, value, f"{what}: {name}", bench.bits(name))
+        bench.equal(given, units[index], f"{what}: unit_o", UNIT.width)
 
 
 @checked(gap=[0.0, 0.5], thrift=[0.0, 0.8])

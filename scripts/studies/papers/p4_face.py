@@ -290,9 +290,8 @@ def shade_nodes(scene: View, records: plan.Records, form: int | None) -> dict:
     vectors = at(records.nodes)
     if form is not None:
         first, last = at(records.start[:, None] + [0, 1] * (1 << records.log2[:, None])).transpose(1, 2, 0)
-        ends = dict(zip(("ax_i", "ay_i", "az_i", "bx_i", "by_i", "bz_i"), (*first, *last), strict=True))
-        chain = sim.load("shade_node_chain", FORM=form).run(**ends, c_i=normal.dot3(*first, *last))
-        components = [chain.outputs[f"n{node}{axis}_o"] for node in range(5) for axis in "xyz"]
+        chain = sim.load("shade_node_chain", FORM=form).run(a_i=(*first,), b_i=(*last,), c_i=normal.dot3(*first, *last))
+        components = [chain.outputs[f"arc_o.n{node}.{axis}"] for node in range(5) for axis in "xyz"]
         chain = np.stack(components, axis=-1).reshape(-1, 5, 3)
         inner = np.take_along_axis(chain, plan.QUARTERS[records.degree][..., None], axis=1)
         vectors = np.where((records.degree == k.DEGREE_DIRECT)[:, None, None], vectors, inner)

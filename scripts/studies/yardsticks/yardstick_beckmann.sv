@@ -63,8 +63,7 @@ module yardstick_beckmann #(
   assign y18 = y_q17[20:2] + 19'(y_q17[1]);
   assign y17 = y_q17[20:3] + 18'(y_q17[2]);
   shade_rsqrt u_rsqrt (
-    .clk_i, .rst_i, .valid_i(1'b0), .z_i({1'b0, z_q7}),
-    .valid_o(), .y_o(y_q17), .e_o(e_q17), .zero_o()
+    .clk_i, .z_i({1'b0, z_q7}), .y_o(y_q17), .e_o(e_q17), .zero_o()
   );
   shade_delay #(.WIDTH(5), .DEPTH(6)) u_e (.clk_i, .d_i(e_q17), .q_o(e_q23));
 

@@ -31,73 +31,61 @@ module shade_phong #(
   output logic                               m_axis_pixel_tlast
 );
   localparam int W = shade_pkg::INTENSITY_W;
-  localparam int STEP_W = shade_pkg::STEP_W;
-  localparam int COUNT_W = shade_pkg::COUNT_W;
-  localparam int TAG_W = shade_pkg::TAG_W;
-  localparam int LINE_W = shade_pkg::SPAN_COUNT_LSB;
   localparam int FIFO_LOG2 = shade_pkg::PHONG_FIFO_LOG2;
 
   // ---- spans ---------------------------------------------------------------------------------------------------
-  logic [COUNT_W-1:0] count;
+  shade_pkg::span_t span, span_q;
   logic load, issue, first, last, credit;
-  assign count = s_axis_span_tdata[shade_pkg::SPAN_COUNT_LSB+:COUNT_W];
+  assign span = s_axis_span_tdata;
   shade_walk #(.CREDIT_LOG2(FIFO_LOG2)) u_walk (
-    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(count),
+    .clk_i, .rst_i, .valid_i(s_axis_span_tvalid), .ready_o(s_axis_span_tready), .count_i(span.count),
     .credit_i(credit), .load_o(load), .issue_o(issue), .first_o(first), .last_o(last)
   );
 
-  logic [LINE_W-1:0] line_q;
-  logic [TAG_W-1:0] tag_q;
-  always_ff @(posedge clk_i) begin
-    if (load) begin
-      line_q <= s_axis_span_tdata[LINE_W-1:0];
-      tag_q  <= s_axis_span_tdata[shade_pkg::SPAN_TAG_LSB+:TAG_W];
-    end
-  end
+  always_ff @(posedge clk_i) if (load) span_q <= span;
 
   // ---- normals and light of the pixels ---------------------------------------------------------------------------
-  logic valid_n, valid_e, valid_l;
-  logic signed [W-1:0] nx, ny, nz, ex, ey, ez, diffuse, specular;
+  logic valid_e, valid_l, zero;
+  shade_pkg::vec_t n, e;
+  logic signed [W-1:0] diffuse, specular;
   shade_increment u_increment (
-    .clk_i, .rst_i, .valid_i(issue), .first_i(first), .line_i(1'b0),
-    .xn_i(line_q[0+:STEP_W]), .yn_i(line_q[STEP_W+:STEP_W]), .zn_i(line_q[2*STEP_W+:STEP_W]),
-    .xg_i(line_q[3*STEP_W+:STEP_W]), .yg_i(line_q[4*STEP_W+:STEP_W]), .zg_i(line_q[5*STEP_W+:STEP_W]),
-    .xl_i(STEP_W'(0)), .yl_i(STEP_W'(0)), .zl_i(STEP_W'(0)), .valid_o(valid_n), .x_o(nx), .y_o(ny), .z_o(nz)
+    .clk_i, .valid_i(issue), .first_i(first), .line_i(1'b0), .n_i(span_q.normal), .g_i(span_q.increment), .l_i('0),
+    .n_o(n)
   );
-  shade_normalize u_normalize (
-    .clk_i, .rst_i, .valid_i(valid_n), .x_i(nx), .y_i(ny), .z_i(nz), .valid_o(valid_e), .x_o(ex), .y_o(ey), .z_o(ez),
-    .zero_o()
+  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(n), .n_o(e), .zero_o(zero));
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_INCREMENT + shade_pkg::LATENCY_NORMALIZE)) u_valid_e (
+    .clk_i, .rst_i, .valid_i(issue), .valid_o(valid_e)
   );
   shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
     .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1), .k2_i(draw_i.material.k2),
     .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax), .power_i(draw_i.material.power), .inv_n_i(draw_i.material.inv_n),
     .inv_n_exp_i(draw_i.material.inv_n_exp), .gain_i(draw_i.material.gain), .gain_exp_i(draw_i.material.gain_exp),
     .lx_i(draw_i.light.l.x), .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x), .hy_i(draw_i.light.h.y), .hz_i(draw_i.light.h.z),
-    .vh_i(draw_i.light.vh), .valid_i(valid_e), .nx_i(ex), .ny_i(ey), .nz_i(ez), .valid_o(valid_l),
+    .vh_i(draw_i.light.vh), .valid_i(valid_e), .nx_i(e.x), .ny_i(e.y), .nz_i(e.z), .valid_o(valid_l),
     .diffuse_o(diffuse), .specular_o(specular), .flags_o()
   );
 
   // ---- pixels ----------------------------------------------------------------------------------------------------
   localparam int PIXEL_W = shade_pkg::PIXEL_W;
   logic valid_q;
-  logic [2*PIXEL_W-1:0] pixel, pixel_q;
-  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_diffuse (.x_i(diffuse), .y_o(pixel[0+:PIXEL_W]));
-  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_specular (.x_i(specular), .y_o(pixel[PIXEL_W+:PIXEL_W]));
+  shade_pkg::pixel_t pixel, pixel_q;
+  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_diffuse (.x_i(diffuse), .y_o(pixel.diffuse));
+  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_specular (.x_i(specular), .y_o(pixel.specular));
   always_ff @(posedge clk_i) begin
     pixel_q <= pixel;
     valid_q <= valid_l;
     if (rst_i) valid_q <= 1'b0;
   end
-  shade_fifo #(.WIDTH(2 * PIXEL_W), .LOG2(FIFO_LOG2)) u_pixels (
+  shade_fifo #(.WIDTH($bits(pixel)), .LOG2(FIFO_LOG2)) u_pixels (
     .clk_i, .rst_i, .valid_i(valid_q), .data_i(pixel_q), .valid_o(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready),
     .data_o(m_axis_pixel_tdata), .taken_o(credit)
   );
   // what needs no computing is there long before its pixel, and leaves with it
-  shade_fifo #(.WIDTH(1 + TAG_W), .LOG2(FIFO_LOG2)) u_tags (
-    .clk_i, .rst_i, .valid_i(issue), .data_i({last, tag_q}), .valid_o(),
+  shade_fifo #(.WIDTH(1 + $bits(span.tag)), .LOG2(FIFO_LOG2)) u_tags (
+    .clk_i, .rst_i, .valid_i(issue), .data_i({last, span_q.tag}), .valid_o(),
     .ready_i(m_axis_pixel_tvalid && m_axis_pixel_tready), .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser}), .taken_o()
   );
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, s_axis_span_tdata, draw_i};
+  assign unused_bits = &{1'b0, span_q, draw_i, zero};
 endmodule

@@ -266,7 +266,7 @@ LATENCY_GRADIENT = 3 + LATENCY_MUL + 3  # three shifter levels, product, roundin
 LATENCY_RSQRT = 2 + 2 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
 LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
 LATENCY_UNIT = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
-LATENCY_UNIT_FOLDED = 30  # five turns of the multiplier
+LATENCY_UNIT_FOLDED = 28  # FOLD = 3 .. 8: turns of a multiplier
 LATENCY_WEIGH = 4  # a tree of adders
 LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders
 LATENCY_HALF = 1 + LATENCY_WEIGH  # the choice of a straight line
@@ -297,15 +297,20 @@ LATENCY_LIGHT_FOLDED = 12 + LATENCY_LOBE_FOLDED + 11  # the versine's six produc
 LATENCY_LIGHT_LOCAL = LATENCY_HALFWAY + 1 + LATENCY_VERSINE + LATENCY_FACTOR + LATENCY_GAIN
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
 LATENCY_KAPPA = 4 + LATENCY_MUL + 2 + LATENCY_MUL + 4  # common shift, squares, sums, product, shift, range
-LATENCY_KAPPA_FOLDED = LATENCY_KAPPA + 6  # products one after the other
 LATENCY_PLANNER = LATENCY_KAPPA + 14  # see shade_planner
-LATENCY_PLANNER_FOLDED = LATENCY_PLANNER + LATENCY_KAPPA_FOLDED - LATENCY_KAPPA
 LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 5  # the choice of a run, its step, the run, its node, the rounding
-LATENCY_LINE = LATENCY_PLANNER + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK + LATENCY_UNIT  # span to its first normal
-LATENCY_LINE_FOLDED = (
-    -(-(LATENCY_PLANNER_FOLDED + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK) // 6) * 6 + LATENCY_UNIT_FOLDED
-)
+
+
+def line_latency(fold: int) -> int:
+    """Clocks from a span to its first normal in ``shade_line``; folded units take what comes in phase 0."""
+    later, unit = (fold, LATENCY_UNIT_FOLDED) if fold > 2 else (0, LATENCY_UNIT)
+    node = LATENCY_PLANNER + later + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK
+    return -(-node // fold) * fold + unit
+
+
+LATENCY_LINE = line_latency(1)  # span to its first normal
+LATENCY_LINE_FOLDED = line_latency(6)
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 LATENCY_RECORD = 1 + LATENCY_LIGHT + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF  # normal to pixel

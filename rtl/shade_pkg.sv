@@ -283,7 +283,7 @@ package shade_pkg;
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
-  localparam int LATENCY_UNIT_FOLDED = 30;  // five turns of the multiplier
+  localparam int LATENCY_UNIT_FOLDED = 28;  // FOLD = 3 .. 8: turns of a multiplier
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
   localparam int LATENCY_HALF = 5;  // the choice of a straight line
@@ -314,19 +314,17 @@ package shade_pkg;
   localparam int LATENCY_LIGHT_LOCAL = 76;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
-  localparam int LATENCY_KAPPA_FOLDED = 20;  // products one after the other
   localparam int LATENCY_PLANNER = 28;  // see shade_planner
-  localparam int LATENCY_PLANNER_FOLDED = 34;
   localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 5;  // the choice of a run, its step, the run, its node, the rounding
   localparam int LATENCY_LINE = 55;  // span to its first normal
-  localparam int LATENCY_LINE_FOLDED = 72;
+  localparam int LATENCY_LINE_FOLDED = 70;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
   localparam int LATENCY_LANE = 141;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
-  localparam int LATENCY_LANE_FOLDED = 158;  // parts with FOLD = 6 take what comes in every sixth clock
+  localparam int LATENCY_LANE_FOLDED = 152;  // parts with FOLD = 6 take what comes in every sixth clock
   localparam int LATENCY_CORE = 142;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PATCH_NORM = 3;  // absolute values, their sum and largest, half of both

@@ -24,7 +24,7 @@ import pytest
 from cocotb_tools.runner import get_runner
 from polyshade.sim import tools, verilate
 from polyshade.sim.model import glue
-from polyshade.sim.sources import BUILD, Point, label, modules
+from polyshade.sim.sources import BUILD, Point, label, modules, yardsticks
 
 SEED = int(os.environ.get("SEED", "1"))
 WAVES = os.environ.get("WAVES", "0") not in ("", "0")
@@ -46,7 +46,7 @@ def simulate(module: str, point: Point, bench: str = "", public: tuple[str, ...]
     name = "-".join([module, *(f"{name}{value}" for name, value in point.items()), *["waves"] * WAVES])
     folder = TESTS / name
     folder.mkdir(parents=True, exist_ok=True)
-    bench = bench or f"tb.{modules()[module].parent.name}.test_{module.removeprefix('shade_')}"
+    bench = bench or f"tb.{(modules() | yardsticks())[module].parent.name}.test_{module.removeprefix('shade_')}"
     with _locked(folder), mock.patch.dict(os.environ, tools.environment()):
         library, _ = verilate.build(module, point, glue, waves=WAVES, public=public)
         os.environ |= {"MODEL": str(library), "POINT": label(module, point)}

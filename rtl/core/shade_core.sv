@@ -78,7 +78,7 @@ module shade_core #(
   shade_pkg::told_t told;
   shade_pkg::status_t events;
   shade_pkg::counts_t counts;
-  logic change, clear, busy, busy_q;
+  logic change, busy, busy_q, unused_clear;
   logic [LANES-1:0] enter, room, ready, given, lit;
   logic [LANES-1:0][shade_pkg::NODE_FLAGS_BITS-1:0] flags;
 
@@ -139,8 +139,6 @@ module shade_core #(
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(busy_q), .events_i(events), .counts_i(counts)
+    .draw_o(draw), .change_o(change), .clear_o(unused_clear), .busy_i(busy_q), .events_i(events), .counts_i(counts)
   );
-  logic unused_clear;
-  assign unused_clear = clear;
 endmodule

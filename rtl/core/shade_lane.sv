@@ -74,10 +74,10 @@ module shade_lane #(
 
   // a place waits in a FIFO for the light: cheaper than a register for every clock of the way
   shade_pkg::place_t place;
-  logic placed;
+  logic placed, unused_taken;
   shade_fifo #(.WIDTH($bits(place)), .LOG2(shade_pkg::RECORD_FIFO_LOG2), .BLOCK(1)) u_places (
     .clk_i, .rst_i, .valid_i(pixels ? pixel : node), .data_i(pixels ? pixel_place : node_place), .valid_o(placed),
-    .ready_i(lit_o), .data_o(place), .taken_o()
+    .ready_i(lit_o), .data_o(place), .taken_o(unused_taken)
   );
 
   // ---- light, records, pixels ------------------------------------------------------------------------------------

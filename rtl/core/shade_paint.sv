@@ -24,13 +24,13 @@ module shade_paint #(
   localparam int W = shade_pkg::INTENSITY_W;
   localparam int PIXEL_W = shade_pkg::PIXEL_W;
 
-  logic take, taken, coloured;
+  logic take, taken, coloured, unused_soon;
   shade_pkg::drawn_t plain;
   shade_pkg::painted_t next;
   shade_pkg::coloured_t colour;
   assign take = valid_i && ready_o;
   shade_credit #(.LOG2(FIFO_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(ready_o), .soon_o()
+    .clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(ready_o), .soon_o(unused_soon)
   );
   shade_colour u_colour (
     .clk_i, .rst_i, .valid_i(take), .diffuse_i(W'(drawn_i.pixel.diffuse)), .specular_i(W'(drawn_i.pixel.specular)),

@@ -46,6 +46,7 @@ module shade_registers (
 );
   localparam logic [1:0] OKAY = 2'b00;
   localparam logic [1:0] SLVERR = 2'b10;
+  localparam logic [11:0] WORD = 12'hffc;  // an address without its byte
   localparam int CLEAR = shade_pkg::REG_CONTROL_CLEAR_LSB;
 
   // ---- counters and status -----------------------------------------------------------------------------------------
@@ -76,9 +77,9 @@ module shade_registers (
   logic [31:0] data_q;
   logic [3:0] strobe_q;
   always_ff @(posedge clk_i) begin
-    if (s_axil_awready) write_at_q <= {s_axil_awaddr[11:2], 2'b00};
+    if (s_axil_awready) write_at_q <= s_axil_awaddr & WORD;
     if (s_axil_wready) {strobe_q, data_q} <= {s_axil_wstrb, s_axil_wdata};
-    if (s_axil_arready) read_at_q <= {s_axil_araddr[11:2], 2'b00};
+    if (s_axil_arready) read_at_q <= s_axil_araddr & WORD;
 
     if (s_axil_awvalid) s_axil_awready <= 1'b0;
     if (s_axil_wvalid) s_axil_wready <= 1'b0;
@@ -111,11 +112,13 @@ module shade_registers (
   assign read     = end_q && !write_q;
   assign change_o = write;
 
-  logic [31:0] draw_q, own_q, word, merged, word_q;
+  logic [31:0] draw_q, own_q, word_q;
+  logic [3:0][7:0] data, word, merged;
   logic mapped_q, setting_q, clears_q;
+  assign data = data_q;
   assign word = draw_q | own_q;  // one of them is 0
   for (genvar i = 0; i < 4; i++) begin : g_byte
-    assign merged[8*i+:8] = write_q && strobe_q[i] ? data_q[8*i+:8] : word[8*i+:8];
+    assign merged[i] = write_q && strobe_q[i] ? data[i] : word[i];
   end
   logic own;
   assign own = select_q.id || select_q.version || select_q.status || select_q.pixels || select_q.spans || select_q.clocks
@@ -162,5 +165,5 @@ module shade_registers (
   );
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, s_axil_awaddr[1:0], s_axil_araddr[1:0], s_axil_awprot, s_axil_arprot};
+  assign unused_bits = &{1'b0, s_axil_awaddr, s_axil_araddr, s_axil_awprot, s_axil_arprot};
 endmodule

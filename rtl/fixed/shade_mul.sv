@@ -46,7 +46,7 @@ module shade_mul #(
   end else begin : g_no_in
     assign {a, b} = {a_i, b_i};
   end
-  assign ah   = a[A_W-1-:HIGH_W];
+  assign ah   = HIGH_W'(a >>> (A_W - HIGH_W));
   assign high = ah * b;
   if (PRODUCT != 0) begin : g_product
     always_ff @(posedge clk_i) high_p <= high;
@@ -57,7 +57,7 @@ module shade_mul #(
   if (CUT) begin : g_cut
     logic signed [LOW:0] al;
     logic signed [LOW+B_W:0] low, low_p;
-    assign al  = {1'b0, a[LOW-1:0]};
+    assign al  = {1'b0, LOW'(a)};
     assign low = al * b;
     if (PRODUCT != 0) begin : g_product
       always_ff @(posedge clk_i) low_p <= low;
@@ -65,7 +65,7 @@ module shade_mul #(
       assign low_p = low;
     end
     // the lower 17 bits of al b are those of p: the adder is that much shorter
-    assign sum = {high_p + (HIGH_W + B_W)'(low_p >>> LOW), low_p[LOW-1:0]};
+    assign sum = {high_p + (HIGH_W + B_W)'(low_p >>> LOW), LOW'(low_p)};
   end else begin : g_whole
     assign sum = high_p;
   end

@@ -34,16 +34,10 @@ module shade_rsqrt (
   logic [Z_W-1:0] m_q1, m_q2;
   logic [4:0] e_q2;
   always_comb begin
-    if (|z_i[Z_W-1-:8]) eights = 3'd0;
-    else if (|z_i[Z_W-9-:8]) eights = 3'd1;
-    else if (|z_i[Z_W-17-:8]) eights = 3'd2;
-    else if (|z_i[Z_W-25-:8]) eights = 3'd3;
-    else eights = 3'd4;
-
-    if (|m_q1[Z_W-1-:2]) twos = 2'd0;
-    else if (|m_q1[Z_W-3-:2]) twos = 2'd1;
-    else if (|m_q1[Z_W-5-:2]) twos = 2'd2;
-    else twos = 2'd3;
+    eights = 3'd4;
+    twos   = 2'd3;
+    for (int i = 3; i >= 0; i--) if (z_i[Z_W-8*(i+1)+:8] != '0) eights = 3'(i);
+    for (int i = 2; i >= 0; i--) if (m_q1[Z_W-2*(i+1)+:2] != '0) twos = 2'(i);
   end
   always_ff @(posedge clk_i) begin
     m_q1      <= z_i << {eights, 3'b000};
@@ -63,12 +57,12 @@ module shade_rsqrt (
   logic signed [D_W-1:0] d_q3, d_q4, d_q7;
   logic [4:0] e_q9;
   logic zero_q9;
-  shade_rsqrt_rom u_rom (.clk_i, .i_i(m_q2[Z_W-1-:INDEX_W]), .row_o(row_q3));
+  shade_rsqrt_rom u_rom (.clk_i, .i_i(INDEX_W'(m_q2 >> (Z_W - INDEX_W))), .row_o(row_q3));
   // two registers: a block RAM's own is slow
   always_ff @(posedge clk_i) begin
     {c0_q4, c1_q4, c2_q4} <= row_q3;
     // less half a segment: the first bit turned over is the sign
-    d_q3                  <= {~m_q2[Z_W-INDEX_W-1], m_q2[Z_W-INDEX_W-2-:D_W-1]};
+    d_q3                  <= D_W'(m_q2 >> (Z_W - INDEX_W - D_W)) ^ (D_W'(1) << (D_W - 1));
     d_q4                  <= d_q3;
   end
   shade_delay #(.WIDTH(C0_F), .DEPTH(MUL + 1 + MUL)) u_c0 (.clk_i, .d_i(c0_q4), .q_o(c0_q9));

@@ -34,18 +34,18 @@ module shade_square_fabric #(
       logic [W-1:0] total;
       if (level == 0) begin : g_row
         if (first < ROWS - 1) begin : g_bit
-          assign total = W'({x_i[WIDTH-1:first+1], 2'b01}) & {W{x_i[first]}};
+          assign total = W'({x_i >> (first + 1), 2'b01}) & {W{x_i[first]}};
         end else begin : g_two
-          assign total = {&x_i[WIDTH-1-:2], x_i[WIDTH-1] && !x_i[WIDTH-2], 1'b0, x_i[WIDTH-2]};
+          assign total = {x_i[WIDTH-1] && x_i[WIDTH-2], x_i[WIDTH-1] && !x_i[WIDTH-2], 1'b0, x_i[WIDTH-2]};
         end
       end else begin : g_add
         localparam int LATER = first + SPAN / 2;
         if (LATER < ROWS) begin : g_pair
           // the lower bits of the first are those of the sum: the adder is that much shorter
           always_ff @(posedge clk_i) begin
-            total[SPAN-1:0] <= g_level[level-1].g_sum[first].total[SPAN-1:0];
-            total[W-1:SPAN] <= (W - SPAN)'(g_level[level-1].g_sum[first].total >> SPAN)
-                           + (W - SPAN)'(g_level[level-1].g_sum[LATER].total);
+            total <= {(W - SPAN)'(g_level[level-1].g_sum[first].total >> SPAN)
+                      + (W - SPAN)'(g_level[level-1].g_sum[LATER].total),
+                      SPAN'(g_level[level-1].g_sum[first].total)};
           end
         end else begin : g_single
           always_ff @(posedge clk_i) total <= W'(g_level[level-1].g_sum[first].total);

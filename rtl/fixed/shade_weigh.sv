@@ -66,34 +66,36 @@ module shade_weigh #(
 
   // leaf 0: K0, the half ulp, and 1 for every inverted input, at the weight of its digit
   localparam logic [SUM_W-1:0] CONSTANT = (SUM_W'(K0) << F) + (SUM_W'(1) << (DROP - 1))
-      + SUM_W'(MINUS[0+:DIGITS]) + SUM_W'(MINUS[DIGITS+:DIGITS]) + SUM_W'(MINUS[2*DIGITS+:DIGITS]);
+      + SUM_W'(DIGITS'(MINUS)) + SUM_W'(DIGITS'(MINUS >> DIGITS)) + SUM_W'(DIGITS'(MINUS >> 2 * DIGITS));
 
-  logic [LEAVES*SUM_W-1:0] leaf;
-  assign leaf[0+:SUM_W] = CONSTANT;
+  logic [LEAVES-1:0][SUM_W-1:0] leaf;
+  assign leaf[0] = CONSTANT;
   for (genvar n = 1; n < LEAVES; n++) begin : g_leaf
     localparam int DIGIT = digit_of(n);
     if (DIGIT < 3 * DIGITS) begin : g_digit
       logic signed [WIDTH-1:0] value, operand;
-      assign value                = DIGIT < DIGITS ? x_i : DIGIT < 2 * DIGITS ? y_i : z_i;
-      assign operand              = MINUS[DIGIT] ? ~value : value;
-      assign leaf[n*SUM_W+:SUM_W] = SUM_W'(operand) << (DIGIT % DIGITS);
+      assign value   = DIGIT < DIGITS ? x_i : DIGIT < 2 * DIGITS ? y_i : z_i;
+      assign operand = MINUS[DIGIT] ? ~value : value;
+      assign leaf[n] = SUM_W'(operand) << (DIGIT % DIGITS);
     end else begin : g_none
-      assign leaf[n*SUM_W+:SUM_W] = '0;
+      assign leaf[n] = '0;
     end
   end
 
   // node n adds its children 2 n and 2 n + 1; node 1 is the root
-  logic [LEAVES*SUM_W-1:SUM_W] sum_q;
+  logic [LEAVES-1:1][SUM_W-1:0] sum_q;
   for (genvar n = 1; n < LEAVES; n++) begin : g_node
     logic [SUM_W-1:0] a, b;
     if (n < LEAVES / 2) begin : g_inner
-      assign {b, a} = sum_q[2*n*SUM_W+:2*SUM_W];
+      assign a = sum_q[2*n];
+      assign b = sum_q[2*n+1];
     end else begin : g_outer
-      assign {b, a} = leaf[(2*n-LEAVES)*SUM_W+:2*SUM_W];
+      assign a = leaf[2*n-LEAVES];
+      assign b = leaf[2*n-LEAVES+1];
     end
-    always_ff @(posedge clk_i) sum_q[n*SUM_W+:SUM_W] <= a + b;
+    always_ff @(posedge clk_i) sum_q[n] <= a + b;
   end
-  assign w_o = sum_q[SUM_W+DROP+:OUT_W];
+  assign w_o = OUT_W'(sum_q[1] >> DROP);
   logic unused_fraction;
-  assign unused_fraction = &{1'b0, sum_q[SUM_W+:DROP]};
+  assign unused_fraction = &{1'b0, sum_q[1]};
 endmodule

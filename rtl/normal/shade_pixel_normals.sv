@@ -85,14 +85,14 @@ module shade_pixel_normals (
   // two increments to the right neighbour, one to the pixel itself
   shade_pkg::step_t step;
   shade_pkg::vec_t n, e;
-  logic fresh_e, zero_e;
+  logic fresh_e, unused_zero;
   assign step.x = single_q2 ? line_q2.increment.x : line_q2.increment.x <<< 1;
   assign step.y = single_q2 ? line_q2.increment.y : line_q2.increment.y <<< 1;
   assign step.z = single_q2 ? line_q2.increment.z : line_q2.increment.z <<< 1;
   shade_increment u_increment (
     .clk_i, .valid_i(fresh_q2), .first_i(first_q2), .line_i(1'b0), .n_i(line_q2.normal), .g_i(step), .l_i('0), .n_o(n)
   );
-  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(n), .n_o(e), .zero_o(zero_e));
+  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(n), .n_o(e), .zero_o(unused_zero));
   shade_valid #(.DEPTH(TO_UNIT)) u_fresh_e (.clk_i, .rst_i, .valid_i(fresh_q2), .valid_o(fresh_e));
 
   // ---- the two neighbours of every pixel -----------------------------------------------------------------------
@@ -143,5 +143,5 @@ module shade_pixel_normals (
   assign m_axis_normal_tdata = shade_pkg::NORMAL_DATA_W'(normal);
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, line_q2, metric, zero_e};
+  assign unused_bits = &{1'b0, line_q2, metric};
 endmodule

@@ -21,10 +21,10 @@ module shade_pixel_points (
   output shade_pkg::place_t place_o,
   output shade_pkg::vec_t   normal_o
 );
-  logic valid, credit, last;
+  logic valid, credit, last, unused_soon;
   logic [shade_pkg::NORMAL_DATA_W-1:0] normal;
   shade_credit #(.LOG2(shade_pkg::RECORD_FIFO_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(valid_o), .give_i(credit_i), .some_o(credit), .soon_o()
+    .clk_i, .rst_i, .take_i(valid_o), .give_i(credit_i), .some_o(credit), .soon_o(unused_soon)
   );
   shade_pixel_normals u_normals (
     .clk_i, .rst_i, .variant_i(draw_i.control.variant), .threshold_i(draw_i.planner.threshold),

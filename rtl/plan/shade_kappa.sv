@@ -14,8 +14,10 @@
 //   kappa = 2 E n 2^-r  r = 9 + 2 s - exponent - 2 k, cut; r < 0: does not fit
 //
 // Within 2^-12 of the exact value, relative, and 1 ulp.
-// FOLD = 1: four 18 x 18 multipliers, one arc a clock, latency LATENCY_KAPPA = 14 clocks.
-// FOLD = 6: one multiplier, the same bits; an arc is taken in phase 0 of 6, latency LATENCY_KAPPA_FOLDED = 20 clocks.
+// FOLD = 1: four 18 x 18 multipliers, one arc a clock. Latency LATENCY_KAPPA = 14 clocks.
+// FOLD = 3 .. 8: one multiplier, FOLD = 3: two; an arc in FOLD clocks, taken when phase_i is 0; phase_i counts
+//           0 .. FOLD - 1. Latency LATENCY_KAPPA + FOLD. The same bits.
+// FOLD = 2 is as FOLD = 1.
 // Example: g = (1/128, 0, 0), k = 5, n = 32 -> 32 (1/4)^2 / 2 = 1.
 // Source: P1 chooses the degree by hand, region by region; kappa alone decides the error of interpolating cos^n.
 module shade_kappa #(
@@ -23,21 +25,21 @@ module shade_kappa #(
 ) (
   input  logic                                   clk_i,
   input  logic                                   rst_i,
-  input  logic [                            2:0] phase_i,
+  input  logic [         shade_pkg::PHASE_W-1:0] phase_i,
   input  shade_pkg::step_t                       g_i,
   input  logic [          shade_pkg::LOG2_W-1:0] log2_i,
   input  logic [       shade_pkg::SHARPNESS_F:0] mantissa_i,
   input  logic [shade_pkg::SHARPNESS_EXP_W-1:0] exponent_i,
   output logic [         shade_pkg::KAPPA_W-1:0] kappa_o
 );
-  if (FOLD != 1 && FOLD != 6) begin : g_check
-    $error("shade_kappa: FOLD must be 1 or 6");
+  if (FOLD < 1 || FOLD > shade_pkg::FOLD_MAX) begin : g_check
+    $error("shade_kappa: FOLD must be in 1 .. 8");
   end
 
   localparam int W = shade_pkg::STEP_W;
   localparam int D_W = 18;
   localparam int MUL = shade_pkg::LATENCY_MUL;
-  localparam int LATENCY = FOLD == 1 ? shade_pkg::LATENCY_KAPPA : shade_pkg::LATENCY_KAPPA_FOLDED;
+  localparam int LATER = FOLD < 3 ? 0 : FOLD;
 
   // ---- s, in steps of 8, 2 and 1: the first bit that differs from its component's sign goes to the front -----------
   localparam int W2 = D_W + 7;  // of g: what the next steps can still bring to the front
@@ -101,7 +103,7 @@ module shade_kappa #(
   logic [E_W-1:0] e, product;
   logic [KEPT_W:0] kept;  // unsigned
   assign kept = (KEPT_W + 1)'(e >> (E_W - KEPT_W));
-  if (FOLD == 1) begin : g_parallel
+  if (FOLD < 3) begin : g_parallel
     logic [E_W-1:0] xx_q6, yy_q6, zz_q6, two_q7, third_q7, e_q8;
     shade_mul #(.A_W(D_W), .B_W(D_W)) u_xx (.clk_i, .a_i(d[0]), .b_i(d[0]), .p_o(xx_q6));
     shade_mul #(.A_W(D_W), .B_W(D_W)) u_yy (.clk_i, .a_i(d[1]), .b_i(d[1]), .p_o(yy_q6));
@@ -116,24 +118,31 @@ module shade_kappa #(
     logic unused_phase;
     assign unused_phase = &{1'b0, phase_i};
   end else begin : g_folded
-    // factors of clock c stand at the multiplier in c + 1, their product comes in c + 3; d is there in clock 4
-    logic [D_W-1:0] y_q, z_q, a_q, b_q;
-    logic [E_W-1:0] e_q;
+    // is it clock c of an arc? d is there in clock 4; factors of clock c stand at a multiplier in c + 1, their product
+    // comes in c + 3; E stays from clock 10 to 7 + FOLD
+    function automatic logic at(input int c);
+      at = phase_i == shade_pkg::PHASE_W'(c % FOLD);
+    endfunction
+    logic [D_W-1:0] y_q, z_q, next, a_q, b_q;
+    logic [E_W-1:0] square, e_q;
+    assign next = at(4) ? d[0] : at(5) ? y_q : z_q;
+    assign e    = e_q;
     always_ff @(posedge clk_i) begin
-      case (phase_i)
-        3'd4: begin
-          {y_q, z_q} <= {d[1], d[2]};
-          {a_q, b_q} <= {d[0], d[0]};
-        end
-        3'd5:    {a_q, b_q} <= {y_q, y_q};
-        3'd0:    {a_q, b_q} <= {z_q, z_q};
-        default: {a_q, b_q} <= {kept, 1'b0, mantissa_i};  // E stays until the next one begins
-      endcase
-      if (phase_i == 3'd1) e_q <= product;
-      else if (phase_i == 3'd2 || phase_i == 3'd3) e_q <= e_q + product;
+      if (at(4)) {y_q, z_q} <= {d[1], d[2]};
+      if (at(7)) e_q <= square;
+      else if (at(8) || at(9)) e_q <= e_q + square;
     end
-    assign e = e_q;
-    shade_mul #(.A_W(D_W), .B_W(D_W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
+    if (FOLD == 3) begin : g_two
+      always_ff @(posedge clk_i) {a_q, b_q} <= {next, next};
+      shade_mul #(.A_W(D_W), .B_W(D_W)) u_square (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(square));
+      logic [D_W-1:0] kept_q;
+      always_ff @(posedge clk_i) kept_q <= kept;
+      shade_mul #(.A_W(D_W), .B_W(D_W)) u_product (.clk_i, .a_i(kept_q), .b_i({1'b0, mantissa_i}), .p_o(product));
+    end else begin : g_one
+      always_ff @(posedge clk_i) {a_q, b_q} <= at(7) ? {kept, 1'b0, mantissa_i} : {next, next};
+      shade_mul #(.A_W(D_W), .B_W(D_W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
+      assign square = product;
+    end
   end
 
   // ---- shifted by r, in steps of 16, 4 and 1 -----------------------------------------------------------------------
@@ -158,7 +167,7 @@ module shade_kappa #(
     p_q13     <= p_q12 >> ones_q12;
     kappa_o   <= KAPPA_W'(p_q13) | {KAPPA_W{over_q13 || p_q13 >> KAPPA_W != '0}};
   end
-  shade_ring #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATENCY - shade_pkg::LATENCY_KAPPA)) u_r (.clk_i, .rst_i, .d_i(r_q5), .q_o(r_q10));
+  shade_ring #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATER)) u_r (.clk_i, .rst_i, .d_i(r_q5), .q_o(r_q10));
   shade_delay #(.WIDTH(1), .DEPTH(2)) u_over (.clk_i, .d_i(over_q11), .q_o(over_q13));
 
   logic unused_product;

@@ -12,16 +12,16 @@
 //   unit_o       the normal, S1.16, with valid_o; see shade_unit
 //   credit_i     gives one credit back; 2^RECORD_FIFO_LOG2 are there after reset, a record costs one
 //
-// FOLD = 6: planner and unit with one multiplier each for what takes three or more otherwise: a span and a node in six
-// clocks; spans are taken in phase 0 of 6. No path leads from an input to an output, but from phase_i to ready_o.
-// Latency from a span to its first normal: LATENCY_LINE = 55 clocks, FOLD = 6: LATENCY_LINE_FOLDED = 72. One span, one node a
+// FOLD = 2 .. 8: a span and a node in FOLD clocks, with fewer multipliers in planner and unit; phase_i counts 0 .. FOLD - 1,
+// and spans are taken in phase 0. No path leads from an input to an output, but from phase_i to ready_o.
+// Latency from a span to its first normal: LATENCY_LINE = 55 clocks, FOLD = 6: LATENCY_LINE_FOLDED = 70. One span, one node a
 // clock. Source: P1, P4. Example: 5 pixels, degree 3: the normals of pixels 0, 1, 2, 4 in slots 0 to 3 of one record.
 module shade_line #(
   parameter int FOLD = 1
 ) (
   input  logic              clk_i,
   input  logic              rst_i,
-  input  logic [       2:0] phase_i,
+  input  logic [shade_pkg::PHASE_W-1:0] phase_i,
   input  shade_pkg::draw_t  draw_i,
   input  logic              valid_i,
   output logic              ready_o,
@@ -33,14 +33,14 @@ module shade_line #(
   output logic              valid_o,
   output shade_pkg::unit_t  unit_o
 );
-  if (FOLD != 1 && FOLD != 6) begin : g_check
-    $error("shade_line: FOLD must be 1 or 6");
+  if (FOLD < 1 || FOLD > shade_pkg::FOLD_MAX) begin : g_check
+    $error("shade_line: FOLD must be in 1 .. 8");
   end
 
   localparam int LOG2 = shade_pkg::SPAN_FIFO_LOG2;
 
   // ---- spans, beside their plans: a plan comes later than its span -------------------------------------------------
-  logic take, taken, job_valid, planned, plan_valid, walk_ready, walk;
+  logic take, taken, job_valid, planned, plan_valid, walk_ready, walk, unused_soon, unused_taken;
   shade_pkg::job_t job, job_next;
   shade_pkg::plan_t plan, plan_next;
   assign ready_o       = room_o && (FOLD == 1 || phase_i == '0);
@@ -50,13 +50,13 @@ module shade_line #(
   assign job.increment = span_i.increment;
   assign job.flat      = span_i.flat && draw_i.material.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_LAMBERT);
   assign job.tag       = span_i.tag;
-  shade_credit #(.LOG2(LOG2)) u_room (.clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(room_o), .soon_o());
+  shade_credit #(.LOG2(LOG2)) u_room (.clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(room_o), .soon_o(unused_soon));
   shade_fifo #(.WIDTH($bits(job)), .LOG2(LOG2), .BLOCK(1)) u_jobs (
     .clk_i, .rst_i, .valid_i(take), .data_i(job), .valid_o(job_valid), .ready_i(walk), .data_o(job_next),
     .taken_o(taken)
   );
 
-  localparam int LATENCY = FOLD == 1 ? shade_pkg::LATENCY_PLANNER : shade_pkg::LATENCY_PLANNER_FOLDED;
+  localparam int LATENCY = shade_pkg::LATENCY_PLANNER + (FOLD < 3 ? 0 : FOLD);
   shade_planner #(.FOLD(FOLD)) u_planner (
     .clk_i, .rst_i, .phase_i, .increment_i(span_i.increment), .count_i(span_i.count), .flat_i(job.flat),
     .planner_i(draw_i.planner), .fixed_degree_i(draw_i.control.fixed_degree), .plan_o(plan)
@@ -64,7 +64,7 @@ module shade_line #(
   shade_valid #(.DEPTH(LATENCY)) u_planned (.clk_i, .rst_i, .valid_i(take), .valid_o(planned));
   shade_fifo #(.WIDTH($bits(plan)), .LOG2(LOG2), .BLOCK(1)) u_plans (
     .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(walk), .data_o(plan_next),
-    .taken_o()
+    .taken_o(unused_taken)
   );
   shade_assert u_job (.clk_i, .rst_i, .holds_i(!plan_valid || job_valid));
 
@@ -75,7 +75,7 @@ module shade_line #(
     .credit_i, .valid_o(place_valid_o), .node_o(node)
   );
   assign place_o = node.place;
-  localparam int TO_UNIT = FOLD == 1 ? shade_pkg::LATENCY_UNIT : shade_pkg::LATENCY_UNIT_FOLDED;
+  localparam int TO_UNIT = FOLD < 3 ? shade_pkg::LATENCY_UNIT : shade_pkg::LATENCY_UNIT_FOLDED;
   shade_unit #(.FOLD(FOLD)) u_unit (.clk_i, .rst_i, .phase_i, .bypass_i(node.flat), .v_i(node.normal), .unit_o);
   shade_valid #(.DEPTH(TO_UNIT)) u_valid (.clk_i, .rst_i, .valid_i(place_valid_o), .valid_o);
 

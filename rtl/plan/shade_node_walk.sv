@@ -22,7 +22,7 @@ module shade_node_walk #(
 ) (
   input  logic             clk_i,
   input  logic             rst_i,
-  input  logic [      2:0] phase_i,
+  input  logic [shade_pkg::PHASE_W-1:0] phase_i,
   input  logic             valid_i,
   output logic             ready_o,
   input  shade_pkg::job_t  job_i,
@@ -31,7 +31,7 @@ module shade_node_walk #(
   output logic             valid_o,
   output shade_pkg::node_t node_o
 );
-  if (FOLD < 1 || FOLD > 8) begin : g_check
+  if (FOLD < 1 || FOLD > shade_pkg::FOLD_MAX) begin : g_check
     $error("shade_node_walk: FOLD must be in 1 .. 8");
   end
 
@@ -48,15 +48,15 @@ module shade_node_walk #(
   );
 
   // ---- the stretch in work: whether a node goes and whether it is the last one is known a clock before -----------------
-  logic busy_q, first_q, shared_q, last_record_q, go_q, end_record_q, end_run_q;
-  logic busy_d, first_d, shared_d, last_record_d, end_run, some, credit, pace;
+  logic busy_q, first_q, shared_q, last_record_q, go_q, end_record_q, end_run_q, free_q;
+  logic busy_d, first_d, shared_d, last_record_d, go_d, end_run_d, end_run, unused_some, credit, pace;
   logic [1:0] slot_q, slot_d, last_slot_q, last_slot_d;
   logic [COUNT_W-1:0] records_q;
   shade_pkg::stretch_t stretch_q;
   assign end_run = go_q && end_run_q;
-  assign load    = next_valid && (!busy_q || end_run);
+  assign load    = next_valid && free_q;  // a register: from here a path leads to the FIFOs of spans and plans
   shade_credit #(.LOG2(CREDIT_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(go_q && first_q), .give_i(credit_i), .some_o(some), .soon_o(credit)
+    .clk_i, .rst_i, .take_i(go_q && first_q), .give_i(credit_i), .some_o(unused_some), .soon_o(credit)
   );
   always_comb begin
     busy_d        = load || (busy_q && !end_run);
@@ -84,7 +84,9 @@ module shade_node_walk #(
   end
 
   // a node that goes in this clock comes out in two: in phase 0
-  assign pace = FOLD == 1 || phase_i == 3'((2 * FOLD - 3) % FOLD);
+  assign end_run_d = slot_d == last_slot_d && last_record_d;
+  assign go_d      = busy_d && (!first_d || credit) && pace;
+  assign pace      = FOLD == 1 || phase_i == shade_pkg::PHASE_W'((2 * FOLD - 3) % FOLD);
   always_ff @(posedge clk_i) begin
     first_q       <= first_d;
     shared_q      <= shared_d;
@@ -92,16 +94,17 @@ module shade_node_walk #(
     last_slot_q   <= last_slot_d;
     end_record_q  <= slot_d == last_slot_d;
     last_record_q <= last_record_d;
-    end_run_q     <= slot_d == last_slot_d && last_record_d;
+    end_run_q     <= end_run_d;
     busy_q        <= busy_d;
-    go_q          <= busy_d && (!first_d || credit) && pace;
+    go_q          <= go_d;
+    free_q        <= !busy_d || (go_d && end_run_d);
     if (load) begin
       stretch_q <= next;
       records_q <= next.records;
     end else if (go_q && end_record_q) begin
       records_q <= records_q - ONE;
     end
-    if (rst_i) {busy_q, go_q} <= 2'b00;
+    if (rst_i) {busy_q, go_q, free_q} <= 3'b001;
   end
 
   // ---- its node, a clock later; a cubic's third step is half a record --------------------------------------------------
@@ -148,5 +151,5 @@ module shade_node_walk #(
   shade_assert u_phase (.clk_i, .rst_i, .holds_i(!valid_o || FOLD == 1 || phase_i == '0));
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, phase_i, some, stretch_q.records, stretch_q.single, stretch_q.shared, stretch_q.fresh};
+  assign unused_bits = &{1'b0, phase_i, stretch_q.records, stretch_q.single, stretch_q.shared, stretch_q.fresh};
 endmodule

@@ -16,8 +16,8 @@
 // Where kappa(2) > t3, all records are direct (degree 0, each pixel lit), of 4 pixels. The last record is direct if it has
 // no more pixels than its polynomial has nodes; in the paper's form, up to 4. The others share nodes with their neighbours.
 // The halvings of kappa until it is at most t3 are found by steps of 8, 4, 2, 1. Multipliers: those of shade_kappa.
-// FOLD = 1: one span a clock, latency LATENCY_PLANNER = 28 clocks. FOLD = 6: one span in six clocks, taken in phase 0 of 6,
-// latency LATENCY_PLANNER_FOLDED = 34 clocks.
+// FOLD = 1: one span a clock. Latency LATENCY_PLANNER = 28 clocks. FOLD = 2 .. 8: one span in FOLD clocks, taken when phase_i
+// is 0; phase_i counts 0 .. FOLD - 1. From FOLD = 3 on the latency is longer by FOLD, as that of shade_kappa.
 // Example: 33 pixels, g = (1/128, 0, 0), n = 128: kappa = 4 -> 1 record of 16 pixels, one of 17, both of degree 3.
 // Source: P1, section V (degrees by region), by a measure instead of by hand.
 module shade_planner #(
@@ -25,7 +25,7 @@ module shade_planner #(
 ) (
   input  logic                            clk_i,
   input  logic                            rst_i,
-  input  logic [                     2:0] phase_i,
+  input  logic [  shade_pkg::PHASE_W-1:0] phase_i,
   input  shade_pkg::step_t                increment_i,
   input  logic [  shade_pkg::COUNT_W-1:0] count_i,
   input  logic                            flat_i,
@@ -33,8 +33,8 @@ module shade_planner #(
   input  logic [ shade_pkg::DEGREE_W-1:0] fixed_degree_i,
   output shade_pkg::plan_t                plan_o
 );
-  if (FOLD != 1 && FOLD != 6) begin : g_check
-    $error("shade_planner: FOLD must be 1 or 6");
+  if (FOLD < 1 || FOLD > shade_pkg::FOLD_MAX) begin : g_check
+    $error("shade_planner: FOLD must be in 1 .. 8");
   end
 
   localparam int COUNT_W = shade_pkg::COUNT_W;
@@ -59,7 +59,7 @@ module shade_planner #(
     whole_q2  <= bits(steps_q1);
     kappa_q15 <= flat_q14 || fixed_degree_i != '0 ? '0 : kappa_q14;
   end
-  localparam int WAIT = FOLD == 1 ? 0 : shade_pkg::LATENCY_KAPPA_FOLDED - shade_pkg::LATENCY_KAPPA;
+  localparam int WAIT = FOLD < 3 ? 0 : FOLD;
   shade_kappa #(.FOLD(FOLD)) u_kappa (
     .clk_i, .rst_i, .phase_i, .g_i(increment_i), .log2_i(whole_q2), .mantissa_i(planner_i.sharpness),
     .exponent_i(planner_i.sharpness_exp), .kappa_o(kappa_q14)

@@ -45,18 +45,17 @@ module shade_fdiff #(
   // Start of a segment. In units of 2^-FRACTION ulp, with e = LOG2_MAX - k:
   //   A h^3 = A 2^(3 e),  B h^2 = B 2^(2 e + LOG2_MAX),  C h = C 2^(e + 2 LOG2_MAX)
   // e = 4 coarse + fine: stage 1 shifts by fine, stage 2 by coarse.
-  logic [3:0] e;
-  logic [1:0] coarse_q1;
+  logic [1:0] coarse, fine, coarse_q1;
   logic signed [STATE_W-1:0] a, b, c, a_q1, b_q1, c_q1, a_q2, b_q2, c_q2;
   logic signed [STATE_W-1:0] six_a_q3, ab_q3, b_q3, c_q3, d1_q4, d2_q4, d3_q4, i_q4;
-  assign e = 4'(LOG2_MAX) - log2_i;
+  assign {coarse, fine} = 4'(LOG2_MAX) - log2_i;
   assign a = STATE_W'(a_i);
   assign b = STATE_W'(b_i);
   assign c = STATE_W'(c_i);
 
   always_ff @(posedge clk_i) begin
-    coarse_q1 <= e[3:2];
-    case (e[1:0])
+    coarse_q1 <= coarse;
+    case (fine)
       2'd0: begin a_q1 <= a;        b_q1 <= b;        c_q1 <= c;        end
       2'd1: begin a_q1 <= a <<< 3;  b_q1 <= b <<< 2;  c_q1 <= c <<< 1;  end
       2'd2: begin a_q1 <= a <<< 6;  b_q1 <= b <<< 4;  c_q1 <= c <<< 2;  end

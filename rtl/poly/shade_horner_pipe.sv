@@ -56,7 +56,5 @@ module shade_horner_pipe #(
   shade_horner_step #(.WIDTH(WIDTH), .T_F(T_F)) u_step3 (
     .clk_i, .s_i(s_q6), .t_i(t_q6), .c_i(WIDTH'($signed({d_q8, 1'b1, {(GUARD - 1){1'b0}}}))), .y_o(s_q9)
   );
-  assign y_o = s_q9[WIDTH-1:GUARD];
-  logic unused_guard;
-  assign unused_guard = &{1'b0, s_q9[GUARD-1:0]};
+  assign y_o = (WIDTH - GUARD)'(s_q9 >>> GUARD);
 endmodule

@@ -95,5 +95,5 @@ module shade_horner_seq #(
     if (load) rg_q <= WIDTH'(b_i) <<< GUARD;
     else if (!ready_o) rg_q <= WIDTH'(sm >>> T_F);
   end
-  assign y_o = rg_q[WIDTH-1:GUARD];
+  assign y_o = (WIDTH - GUARD)'(rg_q >>> GUARD);
 endmodule

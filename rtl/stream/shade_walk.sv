@@ -28,14 +28,14 @@ module shade_walk #(
     $error("shade_walk: COUNT_W and CREDIT_LOG2 must be at least 1");
   end
 
-  logic busy_q, some;
+  logic busy_q, some, unused_soon;
   logic [COUNT_W-1:0] left_q;  // steps behind the one at hand
 
   assign issue_o = busy_q && some;
   assign ready_o = !busy_q || (issue_o && last_o);
   assign load_o  = valid_i && ready_o;
   shade_credit #(.LOG2(CREDIT_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(issue_o), .give_i(credit_i), .some_o(some), .soon_o()
+    .clk_i, .rst_i, .take_i(issue_o), .give_i(credit_i), .some_o(some), .soon_o(unused_soon)
   );
 
   always_ff @(posedge clk_i) begin

@@ -141,9 +141,10 @@ def _unit(form: str) -> Iterator[Case]:
         n = np.where(i["bypass_i"], (2 * v).clip(*signed_range(k.INTENSITY_W)), n)
         return golden(i) | dict(zip(ports, n, strict=False))
 
-    for fold, latency in ((1, k.LATENCY_UNIT), (6, k.LATENCY_UNIT_FOLDED)):
+    for fold in (1, 6, 2, 3, 4, 5, 7, 8):
+        latency, pace = (k.LATENCY_UNIT_FOLDED, fold) if fold > 2 else (k.LATENCY_UNIT, 1)
         yield Case(
-            "shade_unit", form, {"FOLD": fold}, golden, exact, exact, vectors, None, latency, fold,
+            "shade_unit", form, {"FOLD": fold}, golden, exact, exact, vectors, None, latency, pace,
             bound=1.65,  # 1/2, 3/8 of s, and of a vector longer than 2 the rounding to 18 bits
         )  # fmt: skip
 

@@ -117,6 +117,7 @@ def _kappa(form: str) -> Iterator[Case]:
     def ideal(i: Arrays) -> Arrays:
         return value(i, sum(i[name].astype(Real) ** 2 for name in names))
 
+    # folded: in shade_planner
     yield Case(
         "shade_kappa", form, {}, golden, exact, ideal, vectors, None, k.LATENCY_KAPPA, unit_f=k.KAPPA_F, chunk=1 << 13,
         late={"log2_i": 2},
@@ -157,9 +158,10 @@ def _planner(form: str) -> Iterator[Case]:
         split = (planned.main != 0).astype(np.int64)
         return {f"plan_o.{name}": value for name, value in (planned._asdict() | {"split": split}).items()}
 
-    for fold, latency in ((1, k.LATENCY_PLANNER), (6, k.LATENCY_PLANNER_FOLDED)):
+    for fold in (1, 6, 2, 3, 4, 5, 7, 8):
+        latency, pace = (k.LATENCY_PLANNER + fold, fold) if fold > 2 else (k.LATENCY_PLANNER, 1)
         yield Case(
-            "shade_planner", form, {"FOLD": fold}, golden, golden, golden, vectors, None, latency, fold, bound=0,
+            "shade_planner", form, {"FOLD": fold}, golden, golden, golden, vectors, None, latency, pace, bound=0,
             unit_f=0, chunk=1 << 13,
         )  # fmt: skip
 

@@ -16,7 +16,7 @@ from tb.plan.test_node_walk import phases
 from tb.runner import points, simulate
 
 
-@points({}, {"FOLD": 6})
+@points({}, {"FOLD": 6}, *({"FOLD": fold} for fold in (2, 3, 4, 5, 7, 8)))
 def test_cocotb(point):
     simulate("shade_line", point)
 
@@ -106,8 +106,7 @@ async def latency(bench: Bench) -> None:
     sent = spans(bench, [9] * 20)
     await source.send(sent.words())
     await compare(bench, draw, sent, points)
-    wanted = k.LATENCY_LINE if fold == 1 else k.LATENCY_LINE_FOLDED
-    bench.equal(points.clocks[0] - source.clocks[0], wanted, "latency")
+    bench.equal(points.clocks[0] - source.clocks[0], k.line_latency(fold), "latency")
     bench.equal(points.clocks[-1] - points.clocks[0], fold * (len(points.clocks) - 1), "clocks of all nodes")
 
 

@@ -45,14 +45,14 @@ module shade_phong #(
   always_ff @(posedge clk_i) if (load) span_q <= span;
 
   // ---- normals and light of the pixels ---------------------------------------------------------------------------
-  logic valid_e, valid_l, zero;
+  logic valid_e, valid_l, unused_zero;
   shade_pkg::vec_t n, e;
   logic signed [W-1:0] diffuse, specular;
   shade_increment u_increment (
     .clk_i, .valid_i(issue), .first_i(first), .line_i(1'b0), .n_i(span_q.normal), .g_i(span_q.increment), .l_i('0),
     .n_o(n)
   );
-  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(n), .n_o(e), .zero_o(zero));
+  shade_normalize u_normalize (.clk_i, .rst_i, .v_i(n), .n_o(e), .zero_o(unused_zero));
   shade_valid #(.DEPTH(shade_pkg::LATENCY_INCREMENT + shade_pkg::LATENCY_NORMALIZE)) u_valid_e (
     .clk_i, .rst_i, .valid_i(issue), .valid_o(valid_e)
   );
@@ -67,7 +67,7 @@ module shade_phong #(
 
   // ---- pixels ----------------------------------------------------------------------------------------------------
   localparam int PIXEL_W = shade_pkg::PIXEL_W;
-  logic valid_q;
+  logic valid_q, unused_there, unused_taken;
   shade_pkg::pixel_t pixel, pixel_q;
   shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_diffuse (.x_i(diffuse), .y_o(pixel.diffuse));
   shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_specular (.x_i(specular), .y_o(pixel.specular));
@@ -82,10 +82,11 @@ module shade_phong #(
   );
   // what needs no computing is there long before its pixel, and leaves with it
   shade_fifo #(.WIDTH(1 + $bits(span.tag)), .LOG2(FIFO_LOG2)) u_tags (
-    .clk_i, .rst_i, .valid_i(issue), .data_i({last, span_q.tag}), .valid_o(),
-    .ready_i(m_axis_pixel_tvalid && m_axis_pixel_tready), .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser}), .taken_o()
+    .clk_i, .rst_i, .valid_i(issue), .data_i({last, span_q.tag}), .valid_o(unused_there),
+    .ready_i(m_axis_pixel_tvalid && m_axis_pixel_tready), .data_o({m_axis_pixel_tlast, m_axis_pixel_tuser}),
+    .taken_o(unused_taken)
   );
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, span_q, draw_i, zero};
+  assign unused_bits = &{1'b0, span_q, draw_i};
 endmodule

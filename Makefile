@@ -9,7 +9,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate machines pictures tables lock clean distclean
+.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate machines handoff pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -53,7 +53,7 @@ format: $(READY) ## Format the Python code
 	$(BIN)/ruff format
 	$(BIN)/ruff check --fix
 
-bench units papers synth formal gate machines: $(READY)
+bench units papers synth formal gate machines handoff: $(READY)
 	$(BIN)/polyshade $@
 
 bench: ## Measure speed: simulator, golden model, alternatives; leaves build/bench.json
@@ -62,6 +62,7 @@ papers: ## Check every claim of the papers; leaves build/papers.json
 formal: ## Prove properties of the modules, and that they can fail; leaves build/formal.json
 gate: ## Run the vectors of every unit through its ECP5 netlist; leaves build/gate.json
 machines: ## Measure area, clock, speed and error of every path; leaves build/machines.json
+handoff: ## Make the bundle for other designs and try it; leaves build/handoff.tar.gz
 synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.json
 
 pictures: $(READY) ## Make the pictures of the READMEs again, in docs

@@ -322,6 +322,15 @@ def gate(module: tuple[str, ...]) -> None:
     sys.exit(command.main(list(module)))
 
 
+@cli.command()
+@click.argument("configuration", nargs=-1)
+def handoff(configuration: tuple[str, ...]) -> None:
+    """Make the bundle for other designs (all machines or those named), try it; leaves build/handoff.tar.gz."""
+    from polyshade.scripts.handoff import bundle as command
+
+    sys.exit(command.main(list(configuration)))
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; turn every fault of the user into one line and exit status 2."""
     try:

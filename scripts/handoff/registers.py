@@ -101,33 +101,33 @@ def _quoted(field: Field) -> str:
 
 def memory_map() -> ElementTree.Element:
     """The map as an element of IP-XACT (IEEE 1685-2014)."""
-    root = _element("memoryMaps")
-    memory = _element("memoryMap", root)
-    _element("name", memory, "s_axil")
-    block = _element("addressBlock", memory)
+    root = element("memoryMaps")
+    memory = element("memoryMap", root)
+    element("name", memory, "s_axil")
+    block = element("addressBlock", memory)
     for name, value in {"name": "registers", "baseAddress": "'h0", "range": "'h1000", "width": "32"}.items():
-        _element(name, block, value)
-    _element("usage", block, "register")
+        element(name, block, value)
+    element("usage", block, "register")
     for register in registers.every():
-        entry = _element("register", block)
-        _element("name", entry, register.name)
-        _element("addressOffset", entry, f"'h{register.offset:x}")
-        _element("size", entry, "32")
+        entry = element("register", block)
+        element("name", entry, register.name)
+        element("addressOffset", entry, f"'h{register.offset:x}")
+        element("size", entry, "32")
         for field in register.fields:
-            part = _element("field", entry)
-            _element("name", part, field.name)
-            _element("description", part, ": ".join(filter(None, (field.format, field.meaning))))
-            _element("bitOffset", part, str(field.lsb))
-            reset = _element("reset", _element("resets", part))
-            _element("value", reset, f"'h{field.reset:x}")
-            _element("bitWidth", part, str(field.width))
+            part = element("field", entry)
+            element("name", part, field.name)
+            element("description", part, ": ".join(filter(None, (field.format, field.meaning))))
+            element("bitOffset", part, str(field.lsb))
+            reset = element("reset", element("resets", part))
+            element("value", reset, f"'h{field.reset:x}")
+            element("bitWidth", part, str(field.width))
             access = "write-only" if field.name == "clear" else {"rw": "read-write", "ro": "read-only"}[register.access]
-            _element("access", part, access)
-    _element("addressUnitBits", memory, "8")
+            element("access", part, access)
+    element("addressUnitBits", memory, "8")
     return root
 
 
-def _element(name: str, parent: ElementTree.Element | None = None, text: str = "") -> ElementTree.Element:
+def element(name: str, parent: ElementTree.Element | None = None, text: str = "") -> ElementTree.Element:
     """An element of IP-XACT, the last child of its parent."""
     tag = f"{{{SPIRIT}}}{name}"
     made = ElementTree.Element(tag) if parent is None else ElementTree.SubElement(parent, tag)

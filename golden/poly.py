@@ -72,11 +72,6 @@ def coef_c(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form
     return np.select([degree == d for d in (k.DEGREE_CUBIC, k.DEGREE_QUADRATIC, k.DEGREE_LINEAR)], [cubic, *lower], 0)
 
 
-def coef_d(i1: ArrayLike) -> Int:
-    """D = I1, for every degree (``shade_coef_d``)."""
-    return integers(i1)[0]
-
-
 def coef(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: int = k.FORM_REFINED):
     """(A, B, C, D) of a span in the frame of the cubic, for degree 3, 2, 1 or 0 (``shade_coef``).
 
@@ -88,7 +83,7 @@ def coef(degree: ArrayLike, i1, i2, i3, i4, *, nodes: int = k.NODES_LEFT, form: 
         coef_a(degree, i1, i2, i3, i4, nodes=nodes, form=form),
         coef_b(degree, i1, i2, i3, i4, nodes=nodes),
         coef_c(degree, i1, i2, i3, i4, nodes=nodes, form=form),
-        coef_d(i1),
+        i1,
     )
 
 

@@ -20,7 +20,6 @@ fixed/shade_rsqrt.sv
 poly/shade_coef_a.sv
 poly/shade_coef_b.sv
 poly/shade_coef_c.sv
-poly/shade_coef_d.sv
 poly/shade_coef.sv
 poly/shade_horner_step.sv
 poly/shade_horner_pipe.sv

@@ -129,9 +129,10 @@ module shade_core #(
     end
   end
 
+  assign given = m_axis_pixel_tvalid & m_axis_pixel_tready;
   shade_tally #(.LANES(LANES)) u_tally (
-    .clk_i, .rst_i, .valid_i(m_axis_pixel_tvalid), .ready_i(m_axis_pixel_tready), .lit_i(lit), .flags_i(flags),
-    .told_i(told), .given_o(given), .counts_o(counts), .events_o(events)
+    .clk_i, .rst_i, .given_i(given), .held_i(m_axis_pixel_tvalid & ~m_axis_pixel_tready), .lit_i(lit), .flags_i(flags),
+    .told_i(told), .counts_o(counts), .events_o(events)
   );
   always_ff @(posedge clk_i) busy_q <= !rst_i && busy;  // a span is at the door or inside
 

@@ -5,8 +5,8 @@
 //
 //   g_i               S2.29       increment per pixel
 //   log2_i            k           taken 2 clocks after g: shade_planner needs as long to find it
-//   mantissa_i        U1.16       n = mantissa 2^exponent, mantissa in [1, 2); constant while arcs are under way
-//   exponent_i        0 .. 12
+//   planner_i         sharpness U1.16, sharpness_exp 0 .. 12: n = mantissa 2^exponent, mantissa in [1, 2); constant while
+//                     arcs are under way
 //   kappa_o           U11.20      saturated
 //
 //   d = g 2^s           s: how many bits repeat the sign in all three components; d: the first 18 bits, the rest is cut
@@ -28,8 +28,7 @@ module shade_kappa #(
   input  logic [         shade_pkg::PHASE_W-1:0] phase_i,
   input  shade_pkg::step_t                       g_i,
   input  logic [          shade_pkg::LOG2_W-1:0] log2_i,
-  input  logic [       shade_pkg::SHARPNESS_F:0] mantissa_i,
-  input  logic [shade_pkg::SHARPNESS_EXP_W-1:0] exponent_i,
+  input  shade_pkg::planner_t                    planner_i,
   output logic [         shade_pkg::KAPPA_W-1:0] kappa_o
 );
   if (FOLD < 1 || FOLD > shade_pkg::FOLD_MAX) begin : g_check
@@ -114,7 +113,7 @@ module shade_kappa #(
       e_q8     <= two_q7 + third_q7;
     end
     assign e = e_q8;
-    shade_mul #(.A_W(KEPT_W + 1), .B_W(M_W)) u_product (.clk_i, .a_i(kept), .b_i({1'b0, mantissa_i}), .p_o(product));
+    shade_mul #(.A_W(KEPT_W + 1), .B_W(M_W)) u_product (.clk_i, .a_i(kept), .b_i({1'b0, planner_i.sharpness}), .p_o(product));
     logic unused_phase;
     assign unused_phase = &{1'b0, phase_i};
   end else begin : g_folded
@@ -137,9 +136,9 @@ module shade_kappa #(
       shade_mul #(.A_W(D_W), .B_W(D_W)) u_square (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(square));
       logic [D_W-1:0] kept_q;
       always_ff @(posedge clk_i) kept_q <= kept;
-      shade_mul #(.A_W(D_W), .B_W(D_W)) u_product (.clk_i, .a_i(kept_q), .b_i({1'b0, mantissa_i}), .p_o(product));
+      shade_mul #(.A_W(D_W), .B_W(D_W)) u_product (.clk_i, .a_i(kept_q), .b_i({1'b0, planner_i.sharpness}), .p_o(product));
     end else begin : g_one
-      always_ff @(posedge clk_i) {a_q, b_q} <= at(7) ? {kept, 1'b0, mantissa_i} : {next, next};
+      always_ff @(posedge clk_i) {a_q, b_q} <= at(7) ? {kept, 1'b0, planner_i.sharpness} : {next, next};
       shade_mul #(.A_W(D_W), .B_W(D_W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
       assign square = product;
     end
@@ -154,7 +153,7 @@ module shade_kappa #(
   logic over, none, over_q11, over_q13;
   assign {over, none, sixteens, fours, ones} = r_q10;
   always_ff @(posedge clk_i) begin
-    rest_q3 <= R_W'(9) - $signed(R_W'(exponent_i)) - $signed(R_W'({log2_i, 1'b0}));
+    rest_q3 <= R_W'(9) - $signed(R_W'(planner_i.sharpness_exp)) - $signed(R_W'({log2_i, 1'b0}));
     rest_q4 <= rest_q3;
     r_q5    <= rest_q4 + $signed(R_W'({s_q4, 1'b0}));
 
@@ -170,6 +169,6 @@ module shade_kappa #(
   shade_ring #(.WIDTH(R_W), .DEPTH(2 * MUL + 1 + LATER)) u_r (.clk_i, .rst_i, .d_i(r_q5), .q_o(r_q10));
   shade_delay #(.WIDTH(1), .DEPTH(2)) u_over (.clk_i, .d_i(over_q11), .q_o(over_q13));
 
-  logic unused_product;
-  assign unused_product = &{1'b0, product, e};
+  logic unused_bits;
+  assign unused_bits = &{1'b0, product, e, planner_i};
 endmodule

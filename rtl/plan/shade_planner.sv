@@ -61,8 +61,7 @@ module shade_planner #(
   end
   localparam int WAIT = FOLD < 3 ? 0 : FOLD;
   shade_kappa #(.FOLD(FOLD)) u_kappa (
-    .clk_i, .rst_i, .phase_i, .g_i(increment_i), .log2_i(whole_q2), .mantissa_i(planner_i.sharpness),
-    .exponent_i(planner_i.sharpness_exp), .kappa_o(kappa_q14)
+    .clk_i, .rst_i, .phase_i, .g_i(increment_i), .log2_i(whole_q2), .planner_i, .kappa_o(kappa_q14)
   );
   shade_ring #(.WIDTH(COUNT_W), .DEPTH(20 + WAIT)) u_count (.clk_i, .rst_i, .d_i(count_i), .q_o(count_q20));
   shade_delay #(.WIDTH(COUNT_W), .DEPTH(2)) u_count2 (.clk_i, .d_i(count_q20), .q_o(count_q22));

@@ -7,7 +7,7 @@
 //   degree 0  the constant i1_i
 //
 // All in the frame of the cubic, I(t) = A t^3 + B t^2 + C t + D, so that one evaluator serves every degree; nodes that
-// a degree does not use are ignored. Formats, rounding and ranges: shade_coef_a, _b, _c, _d.
+// a degree does not use are ignored. Formats, rounding and ranges: shade_coef_a, _b, _c.
 // Latency LATENCY_COEF = 9 clocks, one set of nodes a clock. Source: P1, section IV.
 // Example (degree 2): I = 1/4, 1/2, 1 -> A = 0, B = 1/2, C = 1/4, D = 1/4.
 module shade_coef #(
@@ -35,5 +35,6 @@ module shade_coef #(
   shade_coef_c #(.WIDTH(WIDTH), .NODES(NODES), .FORM(FORM)) u_c (
     .clk_i, .degree_i, .i1_i, .i2_i, .i3_i, .i4_i, .c_o
   );
-  shade_coef_d #(.WIDTH(WIDTH)) u_d (.clk_i, .i1_i, .d_o);
+  // D is I1, whatever the degree: it waits for the others
+  shade_delay #(.WIDTH(WIDTH), .DEPTH(shade_pkg::LATENCY_COEF)) u_d (.clk_i, .d_i(i1_i), .q_o(d_o));
 endmodule

@@ -85,7 +85,8 @@ def sharpness(rng: np.random.Generator, rows: int) -> Arrays:
     """A sharpness for all rows."""
     one = 1 << k.SHARPNESS_F
     mantissa = rng.choice([one, 2 * one - 1, rng.integers(one, 2 * one)])
-    return {"mantissa_i": np.full(rows, mantissa), "exponent_i": np.full(rows, rng.integers(13))}
+    exponent = rng.integers(13)
+    return {"planner_i.sharpness": np.full(rows, mantissa), "planner_i.sharpness_exp": np.full(rows, exponent)}
 
 
 def _kappa(form: str) -> Iterator[Case]:
@@ -94,17 +95,20 @@ def _kappa(form: str) -> Iterator[Case]:
         return
     names = ("g_i.x", "g_i.y", "g_i.z")
 
+    unused = {f"planner_i.{name}": 0 for name in ("t1", "t2", "t3", "threshold")}
+
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
-        return increments("g_i", rng, rows) | {"log2_i": rng.integers(0, 14, rows)} | sharpness(rng, rows)
+        others = {name: np.full(rows, value) for name, value in unused.items()}
+        return increments("g_i", rng, rows) | {"log2_i": rng.integers(0, 14, rows)} | sharpness(rng, rows) | others
 
     def golden(i: Arrays) -> Arrays:
         g = (i[name] for name in names)
-        return {"kappa_o": plan.kappa(*g, i["log2_i"], i["mantissa_i"], i["exponent_i"])}
+        return {"kappa_o": plan.kappa(*g, i["log2_i"], i["planner_i.sharpness"], i["planner_i.sharpness_exp"])}
 
     def value(i: Arrays, energy: np.ndarray) -> Arrays:
         """kappa for |g|^2, g in units of its last bit."""
-        shift = 2 * i["log2_i"] + i["exponent_i"] - 2 * k.STEP_F - k.SHARPNESS_F - 1 + k.KAPPA_F
-        return {"kappa_o": np.minimum(np.ldexp(energy * i["mantissa_i"], shift), plan.KAPPA_MAX)}
+        shift = 2 * i["log2_i"] + i["planner_i.sharpness_exp"] - 2 * k.STEP_F - k.SHARPNESS_F - 1 + k.KAPPA_F
+        return {"kappa_o": np.minimum(np.ldexp(energy * i["planner_i.sharpness"], shift), plan.KAPPA_MAX)}
 
     def exact(i: Arrays) -> Arrays:
         g = np.stack([i[name] for name in names])
@@ -137,15 +141,12 @@ def _planner(form: str) -> Iterator[Case]:
         static = dict(zip((f"planner_i.{name}" for name in ("t1", "t2", "t3")), limits, strict=True)) | {
             "fixed_degree_i": rng.integers(1, 4) if rng.integers(4) == 0 else 0, "planner_i.threshold": 0
         }  # fmt: skip
-        sharp = dict(
-            zip(("planner_i.sharpness", "planner_i.sharpness_exp"), sharpness(rng, rows).values(), strict=True)
-        )
         near = (1 << rng.integers(0, k.COUNT_W, rows)) + rng.integers(-2, 3, rows)
         count = np.choose(rng.integers(0, 3, rows), [near, rng.integers(0, 20, rows), rng.integers(0, 8192, rows)])
         return (
             increments("increment_i", rng, rows)
             | {"count_i": count.clip(0, (1 << k.COUNT_W) - 1), "flat_i": (rng.random(rows) < 0.1).astype(np.int64)}
-            | sharp
+            | sharpness(rng, rows)
             | {name: np.full(rows, value) for name, value in static.items()}
         )
 

@@ -73,7 +73,7 @@ def _coef(form: str) -> Iterator[Case]:
         point = {"WIDTH": width, "NODES": nodes}
         units = [("shade_coef", "abcd", golden_all(nodes), {"FORM": FORMS[form]})]
         units += [(f"shade_coef_{n}", n, golden_part(n, nodes), {"FORM": FORMS[form]}) for n in "ac"]
-        if form == "refined":  # B and D have one form
+        if form == "refined":  # B has one form
             units.append(("shade_coef_b", "b", golden_part("b", nodes), {}))
         for module, names, golden, more in units:
             values = {n: coefficient(n, nodes, form) for n in names}
@@ -83,15 +83,6 @@ def _coef(form: str) -> Iterator[Case]:
             yield Case(
                 module, form, point | more, golden, exact, exact if form == "refined" else ideal, random, all_of,
                 k.LATENCY_COEF, bound=0 if names == "b" else 1 / 3,
-            )  # fmt: skip
-    if form == "refined":
-        for width in (k.INTENSITY_W, 12):
-            same = {"i1_i": signed_range(width)}
-            yield Case(
-                "shade_coef_d", form, {"WIDTH": width}, lambda i: {"d_o": poly.coef_d(i["i1_i"])},
-                lambda i: {"d_o": i["i1_i"].astype(Real)}, lambda i: {"d_o": i["i1_i"].astype(Real)},
-                mixed(same) if width == k.INTENSITY_W else None, None if width == k.INTENSITY_W else every(same),
-                k.LATENCY_COEF, bound=0,
             )  # fmt: skip
 
 

@@ -30,6 +30,7 @@ stream/shade_stable.sv
 stream/shade_credit.sv
 stream/shade_fifo.sv
 stream/shade_walk.sv
+stream/shade_widen.sv
 poly/shade_span_walk.sv
 poly/shade_poly_span.sv
 normal/shade_normalize.sv

@@ -6,7 +6,9 @@
 //                                   ▲      └─▶ shade_tally ─┐
 //   s_axil ─▶ shade_registers ◀─────┴───────────────────────┘
 //
-//   s_axis_span   one beat a packet (tlast = 1, all of tkeep): SPAN packet, see rtl/README.md
+//   s_axis_span   one beat a packet (tlast = 1, all of tkeep): SPAN packet, see rtl/README.md. BURST = 1: each beat is a span,
+//                 whatever its tlast, as from a DMA that sets it at the end of a transfer
+//   idle_o        no span is inside. irq_o: it became idle, or a span was faulty; high until CONTROL.clear is written
 //   m_axis_pixel  LANES AXI4-Streams side by side, slice i of every port is stream i: tdata {specular, diffuse} U0.16,
 //                 COLOUR = 1: {blue, green, red} or {0, specular, diffuse} by CONTROL.colour; tuser = tag; tlast = span's last
 //   s_axil        AXI4-Lite, see docs/registers.md; settings can be written while no span is inside, and none enters
@@ -30,6 +32,7 @@ module shade_core #(
   parameter int PATH_NORMALS = 1,
   parameter int FOLD         = 1,
   parameter int COLOUR       = 0,
+  parameter int BURST        = 0,
   parameter int DATA_W       = COLOUR == 1 ? shade_pkg::COLOUR_DATA_W : shade_pkg::PIXEL_DATA_W
 ) (
   input  logic                                clk_i,
@@ -62,7 +65,9 @@ module shade_core #(
   output logic                                s_axil_rvalid,
   input  logic                                s_axil_rready,
   output logic [                        31:0] s_axil_rdata,
-  output logic [                         1:0] s_axil_rresp
+  output logic [                         1:0] s_axil_rresp,
+  output logic                                idle_o,
+  output logic                                irq_o
 );
   if (LANES != 1 && LANES != 2 && LANES != 4) begin : g_check_lanes
     $error("shade_core: LANES must be 1, 2 or 4");
@@ -78,11 +83,11 @@ module shade_core #(
   shade_pkg::told_t told;
   shade_pkg::status_t events;
   shade_pkg::counts_t counts;
-  logic change, busy, busy_q, unused_clear;
+  logic change, busy, busy_q, clear;
   logic [LANES-1:0] enter, room, ready, given, lit;
   logic [LANES-1:0][shade_pkg::NODE_FLAGS_BITS-1:0] flags;
 
-  shade_door #(.LANES(LANES), .PATH_NORMALS(PATH_NORMALS)) u_door (
+  shade_door #(.LANES(LANES), .PATH_NORMALS(PATH_NORMALS), .BURST(BURST)) u_door (
     .clk_i, .rst_i, .s_axis_span_tvalid, .s_axis_span_tready, .s_axis_span_tdata, .s_axis_span_tkeep,
     .s_axis_span_tlast, .draw_i(draw), .hold_i(change), .valid_o(enter), .room_i(room), .ready_i(ready),
     .given_i(given), .span_o(span), .busy_o(busy), .told_o(told)
@@ -134,12 +139,16 @@ module shade_core #(
     .clk_i, .rst_i, .given_i(given), .held_i(m_axis_pixel_tvalid & ~m_axis_pixel_tready), .lit_i(lit), .flags_i(flags),
     .told_i(told), .counts_o(counts), .events_o(events)
   );
-  always_ff @(posedge clk_i) busy_q <= !rst_i && busy;  // a span is at the door or inside
+  always_ff @(posedge clk_i) begin
+    busy_q <= !rst_i && busy;  // a span is at the door or inside
+    irq_o  <= !rst_i && ((irq_o && !clear) || (busy_q && !busy) || told.bad);
+  end
+  assign idle_o = !busy_q;
 
   shade_registers u_registers (
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,
-    .draw_o(draw), .change_o(change), .clear_o(unused_clear), .busy_i(busy_q), .events_i(events), .counts_i(counts)
+    .draw_o(draw), .change_o(change), .clear_o(clear), .busy_i(busy_q), .events_i(events), .counts_i(counts)
   );
 endmodule

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_door: packets of an AXI4-Stream in, good spans out to the next free lane: what is faulty stays outside.
 //
-//   s_axis_span_*    one beat a packet (tlast = 1, all of tkeep), see span_t
+//   s_axis_span_*    one beat a packet (tlast = 1, all of tkeep), see span_t; BURST = 1: each beat is a span, whatever its tlast
 //   draw_i           settings; hold_i: no span is taken, as they may be others in the next clock
 //   span_o           a good span; valid_o: to which lane. room_i, ready_i: which lanes could take one, and do in this clock
 //   given_i          a lane gives a pixel
@@ -17,7 +17,8 @@
 // Example, two lanes: spans of 64 pixels go to lane 0 while lane 1 draws sixteen spans of 4.
 module shade_door #(
   parameter int LANES        = 1,
-  parameter int PATH_NORMALS = 1
+  parameter int PATH_NORMALS = 1,
+  parameter int BURST        = 0
 ) (
   input  logic                                clk_i,
   input  logic                                rst_i,
@@ -39,15 +40,19 @@ module shade_door #(
   if (LANES < 1 || LANES > 8) begin : g_check
     $error("shade_door: LANES must be in 1 .. 8");
   end
+  if (BURST < 0 || BURST > 1) begin : g_check_burst
+    $error("shade_door: BURST must be 0 or 1");
+  end
 
   localparam int COUNT_W = shade_pkg::COUNT_W;
 
   // ---- a beat ----------------------------------------------------------------------------------------------------
   shade_pkg::span_t span;
-  logic inside_q, whole, empty, too_long, good, take, pixels, counts;
+  logic inside_q, last, whole, empty, too_long, good, take, pixels, counts;
   assign span     = s_axis_span_tdata;
   assign take     = s_axis_span_tvalid && s_axis_span_tready;
-  assign whole    = s_axis_span_tlast && !inside_q && &s_axis_span_tkeep;
+  assign last     = BURST == 1 || s_axis_span_tlast;
+  assign whole    = last && !inside_q && &s_axis_span_tkeep;
   assign empty    = span.count == '0;
   assign too_long = span.count > COUNT_W'(shade_pkg::PIXELS_MAX);
   assign good     = whole && !empty && !too_long;
@@ -59,7 +64,7 @@ module shade_door #(
   logic first_q, good_q;
   shade_pkg::errors_t seen_q;
   always_ff @(posedge clk_i) begin
-    if (take) inside_q <= !s_axis_span_tlast;
+    if (take) inside_q <= !last;
     first_q          <= take && !inside_q;
     good_q           <= take && good;
     seen_q.empty     <= whole && empty;

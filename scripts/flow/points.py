@@ -50,6 +50,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_stable": [{"WIDTH": 1}],
     "shade_fifo": [*grid(WIDTH=[1, 48], LOG2=[1, 4]), {"BLOCK": 1}],
     "shade_walk": [{"COUNT_W": 4, "CREDIT_LOG2": 1}],
+    "shade_widen": [{"IN_W": 64}],
     "shade_span_walk": grid(LOG2_MAX=[2, 12], CREDIT_LOG2=[1, 6]),
     "shade_dot3": grid(OUT_F=[17, 31]),
     "shade_scale3": [{"GAIN": 1}],
@@ -78,7 +79,7 @@ POINTS: dict[str, list[Point]] = {
     "shade_line": grid(FOLD=[6, 3]),
     "shade_poly_span": [*grid(EVALUATOR=[0, 1], FORM=[0, 1]), {"NODES": 1}, {"EVALUATOR": 1, "LOG2_MAX": 4}],
     "shade_lane": [{"EVALUATOR": 0, "FORM": 0, **SMALL}, FOLDED],
-    "shade_core": [{"LANES": 4, "COLOUR": 1, **FOLDED}],
+    "shade_core": [{"LANES": 4, "COLOUR": 1, "BURST": 1, **FOLDED}],
     "shade_direct_door": [{"LOG2": 1}],
     "shade_direct_line": [{"LOG2": 1}],
 }
@@ -130,7 +131,9 @@ REFUSED: dict[str, list[Point]] = {
     "shade_lane": [{"PATH_NORMALS": 2}, {"FOLD": 2, **SMALL}, {"FOLD": 6}],
     "shade_direct_door": [{"LOG2": 0}],
     "shade_direct_line": [{"LOG2": 0}],
+    "shade_widen": [{"IN_W": 24}, {"IN_W": 256}, {"IN_W": 4}],
     "shade_core": [{"LANES": 0}, {"LANES": 3}, {"COLOUR": 2}, {"DATA_W": 16}],
+    "shade_door": [{"LANES": 0}, {"BURST": 2}],
 }
 
 # Points beside the default one that stand in the synthesis report as well.

@@ -284,6 +284,26 @@ async def latency(bench: Bench) -> None:
         bench.equal(clock - core.watch.taken[0], core.latency, "latency")
 
 
+@checked()
+async def interrupt(bench: Bench) -> None:
+    """irq_o: when the last span has left, or one is faulty, until CONTROL.clear; idle_o: nothing is inside."""
+    core, dut = Core(bench), bench.dut
+    await bench.tick(5)
+    bench.equal((int(dut.idle_o.value), int(dut.irq_o.value)), (1, 0), "idle_o, irq_o after reset")
+    for count in [4, 1], [0]:
+        await core.begin({"model": k.MODEL_LAMBERT})
+        await bench.tick(5)
+        bench.equal((int(dut.idle_o.value), int(dut.irq_o.value)), (1, 0), "idle_o, irq_o when cleared")
+        sent = calm(bench, count)
+        told = core.send(sent)
+        if count[0]:
+            await bench.until(lambda: core.watch.inside > 0, 100, "a span taken")
+            await bench.tick(3)
+            bench.equal((int(dut.idle_o.value), int(dut.irq_o.value)), (0, 0), "idle_o, irq_o with spans inside")
+        await core.compare(sent, told)
+        bench.equal((int(dut.idle_o.value), int(dut.irq_o.value)), (1, 1), "idle_o, irq_o at the end")
+
+
 @checked(path=[k.PATH_POLY, k.PATH_NORMALS])
 async def throughput(bench: Bench, path: int) -> None:
     """A pixel a clock and lane."""

@@ -9,7 +9,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate machines handoff pictures tables lock clean distclean
+.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate mutants coverage budget report soak machines handoff pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -53,17 +53,24 @@ format: $(READY) ## Format the Python code
 	$(BIN)/ruff format
 	$(BIN)/ruff check --fix
 
-bench units papers synth formal gate machines handoff: $(READY)
+bench units papers synth formal gate mutants coverage budget report machines handoff: $(READY)
 	$(BIN)/polyshade $@
 
 bench: ## Measure speed: simulator, golden model, alternatives; leaves build/bench.json
 units: ## Measure every unit: vectors, mismatches, worst error; leaves build/units.json
 papers: ## Check every claim of the papers; leaves build/papers.json
 formal: ## Prove properties of the modules, and that they can fail; leaves build/formal.json
-gate: ## Run the vectors of every unit through its ECP5 netlist; leaves build/gate.json
+gate: ## Run the vectors of every unit, and of a small core, through netlists of FPGA cells; leaves build/gate.json
+mutants: ## Put faults into every module; its own tests must find them; leaves build/mutants.json
+coverage: ## Count what the tests reach in the RTL; leaves build/coverage.json
+budget: ## Compare the error of every stage with an oracle of 40 digits; writes docs/error-budget.md
+report: ## Put all that was measured on one page: build/report/index.html
 machines: ## Measure area, clock, speed and error of every path; leaves build/machines.json
 handoff: ## Make the bundle for other designs and try it; leaves build/handoff.tar.gz
 synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.json
+
+soak: $(READY) ## Random work against the golden model: MINUTES=1 SEED=1; leaves build/soak.json
+	$(BIN)/polyshade soak --minutes $(or $(MINUTES),1) --seed $(or $(SEED),1)
 
 pictures: $(READY) ## Make the pictures of the READMEs again, in docs
 	$(BIN)/python -m polyshade.scripts.drawings.pictures

@@ -331,6 +331,57 @@ def handoff(configuration: tuple[str, ...]) -> None:
     sys.exit(command.main(list(configuration)))
 
 
+@cli.command()
+@click.argument("module", nargs=-1)
+@click.option("--count", default=60, help="Faults of a module.")
+@click.option("--seed", default=1, help="Seed of their choice.")
+def mutants(module: tuple[str, ...], count: int, seed: int) -> None:
+    """Put faults into every module (or those named) and see that its tests find them; leaves build/mutants.json."""
+    from polyshade.scripts.flow import mutants as command
+
+    sys.exit(command.main(list(module), count, seed))
+
+
+@cli.command()
+@click.argument("test", nargs=-1)
+@click.option("--seeds", default=700, help="Items of random work for functional coverage.")
+def coverage(test: tuple[str, ...], seeds: int) -> None:
+    """Count what the tests (or those named) reach in the RTL; leaves build/coverage.json."""
+    from polyshade.scripts.flow import coverage as command
+
+    sys.exit(command.main(test, seeds))
+
+
+@cli.command()
+@click.option("--vectors", default=400_000, help="Vectors of a stage that are searched for the largest errors.")
+@click.option("--seed", default=1, help="Seed of the random ones.")
+def budget(vectors: int, seed: int) -> None:
+    """Compare every stage's error with an oracle of 40 digits; leaves build/budget.json, docs/error-budget.md."""
+    from polyshade.scripts.studies import budget as command
+
+    sys.exit(command.main(vectors, seed))
+
+
+@cli.command()
+def report() -> None:
+    """Put all that was measured on one page; leaves build/report/index.html."""
+    from polyshade.scripts.drawings import page as command
+
+    sys.exit(command.main())
+
+
+@cli.command()
+@click.option("--minutes", default=1.0, help="How long, 0.01 to 10080.")
+@click.option("--seed", default=1, help="The first item's; the others follow.")
+@click.option("--scheduler", default=None, help="A Dask scheduler.  [default: the cores of this machine]")
+@click.option("--kind", default="", help="One item of this kind and seed, and what it gave.")
+def soak(minutes: float, seed: int, scheduler: str | None, kind: str) -> None:
+    """Random units, spans, triangles, stalls and resets against the golden model; leaves build/soak.json."""
+    from polyshade.scripts.flow import soak as command
+
+    sys.exit(command.main(minutes, seed, scheduler, kind))
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; turn every fault of the user into one line and exit status 2."""
     try:

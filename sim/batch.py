@@ -89,8 +89,8 @@ def shoot_all(frames: Sequence[Settings], scheduler: str | None = None) -> Shots
     """
     began = time.perf_counter()
     mesh = frames[0].load()
-    with _client(scheduler, len(frames)) as client:
-        futures = client.map(shoot, frames, mesh=mesh, pure=False)
+    with client(scheduler, len(frames)) as dask_client:
+        futures = dask_client.map(shoot, frames, mesh=mesh, pure=False)
         done = distributed.as_completed(futures)
         bar = tqdm(done, desc="frames", total=len(frames), disable=None, delay=2, leave=False)
         shots = {future.key: future.result() for future in bar}
@@ -109,7 +109,7 @@ def turntable(settings: Settings, frames: int) -> list[Settings]:
 
 
 @contextlib.contextmanager
-def _client(scheduler: str | None, tasks: int) -> Iterator[distributed.Client]:
+def client(scheduler: str | None, tasks: int) -> Iterator[distributed.Client]:
     """A client of a scheduler, or of one with a process for each of this machine's cores."""
     warnings.filterwarnings("ignore", "Sending large graph", UserWarning)  # a large mesh
     where = "--frames" if scheduler is None else f"--scheduler {scheduler!r}"
@@ -134,12 +134,12 @@ def _client(scheduler: str | None, tasks: int) -> Iterator[distributed.Client]:
                 )
                 signal.pthread_sigmask(signal.SIG_SETMASK, heard)
                 stack.callback(signal.pthread_sigmask, signal.SIG_BLOCK, [signal.SIGINT])  # nor does the clearing up
-            client = stack.enter_context(distributed.Client(scheduler, timeout=PATIENCE))
-            client.wait_for_workers(1, timeout=PATIENCE)
+            made = stack.enter_context(distributed.Client(scheduler, timeout=PATIENCE))
+            made.wait_for_workers(1, timeout=PATIENCE)
         except (OSError, ValueError, RuntimeError) as error:
             raise UserError(f"{where}: no worker answers, allowed the address of a running scheduler") from error
         try:
-            yield client
+            yield made
         except distributed.KilledWorker as error:
             raise UserError(f"{where}: a frame's workers died, one after another") from error
         except (CommClosedError, CancelledError) as error:

@@ -102,9 +102,12 @@ class Compared:
 
 
 def draw(
-    lines: Lines, words: Mapping[str, int], stage: Callable[[str], None] = lambda name: None, **parameters: int
-) -> Compared:
+    lines: Lines, words: Mapping[str, int], stage: Callable[[str], None] = lambda name: None,
+    options: Mapping[str, object] | None = None, **parameters: int,
+) -> Compared:  # fmt: skip
     """Draw spans by ``shade_core`` at a parameter point, settings by the names of ``golden.registers``; compare.
+
+    ``options``: of :meth:`sim.Model.run`.
 
     Of more pixels than a `portions` the core starts anew for every portion, so that their number needs no memory.
     """
@@ -112,7 +115,7 @@ def draw(
     stage("simulate")
     made = None
     for part, pixel in portions(lines.count) or [(slice(0, 0), 0)]:
-        more = _draw(model, lines[part], words, parameters)
+        more = _draw(model, lines[part], words, parameters, options or {})
         if first := more.first_mismatch:
             first["pixel"] += pixel
             first["span"] += part.start * (first["span"] >= 0)
@@ -121,11 +124,13 @@ def draw(
     return made
 
 
-def _draw(model: sim.Model, lines: Lines, words: Mapping[str, int], parameters: Mapping[str, int]) -> Compared:
+def _draw(
+    model: sim.Model, lines: Lines, words: Mapping[str, int], parameters: Mapping[str, int], options: Mapping
+) -> Compared:
     beats, writes = lines.beats, registers.pack(words)
     began = time.perf_counter()
     reads = [OFFSETS[name] for name in ("STATUS", *COUNTERS)]
-    run = model.run(s_axis_span_tdata=beats, **WHOLE, writes=writes, reads=reads)
+    run = model.run(s_axis_span_tdata=beats, **WHOLE, writes=writes, reads=reads, **options)
     seconds = time.perf_counter() - began
     built = {name.lower(): value for name, value in parameters.items() if name not in ("LANES", "FOLD")}
     wanted = golden.lane(lines.n, lines.g, lines.count, words, flat=lines.flat, cosine=lines.cosine, **built)

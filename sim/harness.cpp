@@ -7,7 +7,8 @@
 //   in_ready, out_valid                                read one; true where there is none
 //   drive, collect, read_status                        a row of inputs, of outputs, the status
 //   AXIL                                               1: the module has registers on s_axil_*
-// and WAVES. The generated part knows the names, this file the protocol:
+//   set_mutant                                         choose a fault that the netlist holds; 0: none
+// and WAVES, COVERAGE. The generated part knows the names, this file the protocol:
 //
 //   registers         are written after reset, before the streams, and read when these are drained
 //   CLOCKED = false   combinational: a row is evaluated at once
@@ -17,9 +18,28 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
+#if COVERAGE
+#include <string>
+#include <unistd.h>
+#include "verilated_cov.h"
+#endif
 
 namespace {
+
+#if COVERAGE
+// Counts of lines, branches and toggles into the folder that POLYSHADE_COVERAGE names, a file a run
+void cover(VerilatedContext& context) {
+    static int number = 0;
+    const char* folder = std::getenv("POLYSHADE_COVERAGE");
+    if (!folder) return;
+    const std::string name = std::to_string(getpid()) + "-" + MODEL_KEY + "-" + std::to_string(number++) + ".dat";
+    context.coveragep()->write((std::string(folder) + "/" + name).c_str());
+}
+#else
+void cover(VerilatedContext&) {}
+#endif
 
 struct Random {  // xorshift64*: fast, and the same sequence everywhere
     uint64_t state;
@@ -43,9 +63,9 @@ struct Session {
     VerilatedVcdC trace;
 #endif
 
-    explicit Session(uint64_t seed, const char* waves) : out(OUT_PORTS) {
+    Session(uint64_t state, uint64_t mutant, const char* waves) : out(OUT_PORTS) {
         context.randReset(2);  // registers without reset start with random contents
-        context.randSeed(int(seed % 0x7fffffff) + 1);  // 0 would be another seed at every run
+        context.randSeed(int(state % 0x7fffffff) + 1);  // 0 would be another seed at every run
 #if WAVES
         context.traceEverOn(true);
 #endif
@@ -56,9 +76,11 @@ struct Session {
 #else
         (void)waves;
 #endif
+        set_mutant(*top, mutant);
     }
     ~Session() {
         top->final();
+        cover(context);
         delete top;
     }
     void eval() {
@@ -118,13 +140,24 @@ void vl_stop(const char*, int, const char*) {
     Verilated::threadContextp()->gotFinish(true);
 }
 
+// ... where the logic has a loop that does not settle, as a mutant's may
+void vl_fatal(const char* file, int line, const char* scope, const char* told) {
+    std::fprintf(stderr, "%s:%d: %s: %s\n", file, line, scope, told);
+    if (ours) throw Stop{};
+    std::exit(1);
+}
+
 extern "C" {
 
 struct Job {
     uint64_t rows;
     const void* const* in;
     uint32_t in_gap, out_stall;  // probabilities in 1/65536 a clock
-    uint64_t seed, latency, pace, drain, patience;
+    uint64_t seed, state;  // of gaps and stalls; of registers without reset
+    uint64_t reset_at;  // a clock with reset, behind which everything begins anew; ~0: none
+    uint64_t most;  // clocks, after which the module is given up
+    uint64_t mutant;
+    uint64_t latency, pace, drain, patience;
     const char* waves;
     uint32_t (*words)[2];  // offset and word, of registers to write, then of those to read
     uint64_t writes, reads;
@@ -143,11 +176,23 @@ int accesses(Session& s, Job& job, bool write, uint64_t end) {
     return result;
 }
 
+// Forget what was, behind a reset
+void again(Session& s, Job& job) {
+    set_reset(*s.top, 0);
+    set_in_valid(*s.top, 0);
+    set_out_ready(*s.top, 0);
+    s.taken.clear();
+    s.given.clear();
+    for (auto& port : s.out) port.clear();
+    job.reset_at = ~0ULL;
+    job.accesses = 0;
+}
+
 // 0: done; 1: the module took no input and gave no output for `patience` clocks; 2, 3: see access, of word `accesses`;
 // 4: an assertion failed
 int model_run(Job* job, void** session) try {
     ours = true;
-    auto* s = new Session(job->seed, job->waves);
+    auto* s = new Session(job->state, job->mutant, job->waves);
     *session = s;
     Random random{job->seed * 2654435761u + 88172645463325252ULL};
     uint64_t next = 0, quiet = 0, clock = 0;
@@ -183,6 +228,7 @@ int model_run(Job* job, void** session) try {
         for (; !result; clock++) {
             const uint64_t phase = clock % job->pace;
             set_clock(*s->top, 0);
+            set_reset(*s->top, clock == job->reset_at);
             set_phase(*s->top, phase);
             if (!offer && next < job->rows && !(job->in_gap && random.chance(job->in_gap))) {
                 drive(*s->top, job->in, next);
@@ -212,8 +258,16 @@ int model_run(Job* job, void** session) try {
 
             set_clock(*s->top, 1);
             s->eval();
+            if (clock == job->reset_at) {
+                again(*s, *job);
+                next = quiet = 0;
+                clock = ~0ULL;  // the next is 0
+                offer = false;
+                result = accesses(*s, *job, true, job->writes);
+                continue;
+            }
             if (next >= job->rows && !valid && quiet >= job->drain && (OUT_VALID || due == job->rows)) break;
-            if (quiet >= job->patience + job->drain) {
+            if (quiet >= job->patience + job->drain || clock >= job->most) {
                 result = 1;
                 break;
             }
@@ -239,11 +293,19 @@ const uint64_t* model_status(void* session) { return static_cast<Session*>(sessi
 void model_free(void* session) { delete static_cast<Session*>(session); }
 
 // The bare module, for whoever brings a main loop of his own: cocotb, through tb/Vtop.h
-void* dut_new(const char* name) { return new DUT{name}; }
+void* dut_new(const char* name) {
+    auto* dut = new DUT{name};
+    const char* mutant = std::getenv("MUTANT");
+    set_mutant(*dut, mutant ? std::strtoull(mutant, nullptr, 10) : 0);
+    return dut;
+}
 void dut_delete(void* dut) { delete static_cast<DUT*>(dut); }
 void dut_eval_step(void* dut) { static_cast<DUT*>(dut)->eval_step(); }
 void dut_eval_end_step(void* dut) { static_cast<DUT*>(dut)->eval_end_step(); }
-void dut_final(void* dut) { static_cast<DUT*>(dut)->final(); }
+void dut_final(void* dut) {
+    static_cast<DUT*>(dut)->final();
+    cover(*Verilated::threadContextp());
+}
 #if WAVES
 void dut_trace(void* dut, VerilatedVcdC* to, int levels) { static_cast<DUT*>(dut)->trace(to, levels); }
 #endif

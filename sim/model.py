@@ -27,6 +27,7 @@ from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD
 from polyshade.sim.verilate import Port
 
+NEVER = (1 << 64) - 1
 WORDS_MAX = 64  # bits of a port that travel as one integer; wider ones as rows of uint32, least significant first
 
 
@@ -186,6 +187,10 @@ class _Job(ctypes.Structure):
         ("in_gap", ctypes.c_uint32),
         ("out_stall", ctypes.c_uint32),
         ("seed", ctypes.c_uint64),
+        ("state", ctypes.c_uint64),
+        ("reset_at", ctypes.c_uint64),
+        ("most", ctypes.c_uint64),
+        ("mutant", ctypes.c_uint64),
         ("latency", ctypes.c_uint64),
         ("pace", ctypes.c_uint64),
         ("drain", ctypes.c_uint64),
@@ -243,6 +248,7 @@ class Model:
     ):  # fmt: skip
         library, self.ports = verilate.build(module, parameters, glue, waves=waves, public=public, netlist=netlist)
         self.module, self.parameters, self.waves = module, parameters, waves
+        self.mutant, self.most = 0, NEVER  # of a netlist with faults: which one; clocks after which a run is given up
         self.interface = interface(self.ports)
         self._library = ctypes.CDLL(str(library))
         for name in ("model_out", "model_taken", "model_given", "model_status"):
@@ -329,6 +335,8 @@ class Model:
         in_gap: float = 0.0,
         out_stall: float = 0.0,
         seed: int = 1,
+        state: int | None = None,
+        reset_at: int | None = None,
         latency: int | None = None,
         pace: int = 1,
         drain: int = 256,
@@ -345,8 +353,11 @@ class Model:
         ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer, where the module
         has a clock, a ready input. ``latency``: of a module without ``valid_o``, by default the contract's LATENCY_*.
         ``pace``: clocks a row of a module with ``phase_i``, which counts 0 to ``pace`` - 1; a row is taken in phase 0.
-        The run ends ``drain`` clocks after the last transfer. Where the module has registers on ``s_axil_*``,
-        ``writes``, words by offset, come before the streams, and ``reads``, offsets, after them.
+        ``seed``: of gaps and stalls, and of the contents of registers without reset, unless ``state`` is given.
+        ``reset_at``: in that clock the module is reset amid its traffic; then registers are written and all rows come
+        again, and what is returned is what followed. The run ends ``drain`` clocks after the last transfer. Where the
+        module has registers on ``s_axil_*``, ``writes``, words by offset, come before the streams, and ``reads``,
+        offsets, after them.
 
         Raises UserError for missing, unknown, misshapen or out-of-range inputs, SimulationError when nothing is taken
         or given for ``patience`` clocks, and when a register answers with an error or not at all.
@@ -367,6 +378,7 @@ class Model:
             waves.parent.mkdir(parents=True, exist_ok=True)
         job = _Job(
             rows, ctypes.cast(pointers, ctypes.c_void_p), int(in_gap * 65536), int(out_stall * 65536), seed,
+            seed if state is None else state, NEVER if reset_at is None else reset_at, self.most, self.mutant,
             latency, pace, drain, patience, str(waves).encode(), accesses.ctypes.data, len(writes), len(reads),
         )  # fmt: skip
         session = ctypes.c_void_p()
@@ -436,11 +448,16 @@ def load(module: str, *, waves: bool | None = None, public: tuple[str, ...] | No
         except TypeError:
             raise UserError(f"{module}: {name}={value!r}, allowed integers") from None
     waves = os.environ.get("WAVES", "0") not in ("", "0") if waves is None else waves
-    netlist = _netlist(module, parameters) if _netlist else None
+    netlist = netlist_of(module, parameters)
     key = (module, tuple(sorted(parameters.items())), waves, public, netlist and netlist.read_bytes())
     if key not in _loaded:
         _loaded[key] = Model(module, parameters, waves=waves, public=public, netlist=netlist)
     return _loaded[key]
+
+
+def netlist_of(module: str, parameters: dict[str, int]) -> Path | None:
+    """The netlist that is compiled in place of a module's RTL, if any."""
+    return _netlist(module, parameters) if _netlist else None
 
 
 @contextlib.contextmanager

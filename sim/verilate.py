@@ -38,7 +38,8 @@ VERILATOR_FLAGS = [
     "--prefix",
     "Vdut",
 ]
-CXX_FLAGS = ["-std=c++17", "-O1", "-fPIC", "-w", "-DVL_USER_STOP"]  # harness.cpp says what an assertion does
+CXX_FLAGS = ["-std=c++17", "-O1", "-fPIC", "-w", "-DVL_USER_STOP", "-DVL_USER_FATAL"]  # harness.cpp says what they do
+COVERAGE = "POLYSHADE_COVERAGE"  # in the environment: the folder for the counts of every run
 
 
 @dataclass(frozen=True)
@@ -139,7 +140,8 @@ def runtime(waves: bool) -> Path:
     path = CACHE / f"runtime-{key_of(str(verilator.root), verilator.version, CXX_FLAGS, PRECOMPILED, waves)}"
     with once(path) as scratch:
         if scratch:
-            names = ["verilated", "verilated_threads", "verilated_vpi", *(["verilated_vcd_c"] if waves else [])]
+            names = ["verilated", "verilated_threads", "verilated_vpi", "verilated_cov"]
+            names += ["verilated_vcd_c"] if waves else []
             units = [verilator.root / "include" / f"{name}.cpp" for name in names]
             run(["g++", *CXX_FLAGS, *include(verilator.root), "-c", *units], scratch)
             (scratch / "model.h").write_text(PRECOMPILED)
@@ -236,21 +238,28 @@ def build(
 
     ``public``: cocotb can drive the model, too: its ports and parameters, and inner signals of these names (``*_q``).
     That makes small models up to a sixth slower. ``netlist``: Verilog of the module at these parameters, compiled in
-    place of its sources.
+    place of its sources; where it has an input ``mutant_i``, that chooses a fault. With POLYSHADE_COVERAGE in the
+    environment lines, branches and toggles are counted.
     """
-    verilator = tools.verilator()
+    verilator, coverage = tools.verilator(), bool(os.environ.get(COVERAGE)) and not netlist
     files = [netlist] if netlist else reached(module)
     own = [(HERE / "harness.cpp").read_bytes(), (HERE / "model.py").read_bytes(), Path(__file__).read_bytes()]
-    key = key_of(parameters, [path.read_bytes() for path in files], own, verilator.version, waves, public)
+    key = key_of(parameters, [path.read_bytes() for path in files], own, verilator.version, waves, public, coverage)
     path = CACHE / f"{module}-{key}"
     with once(path) as scratch:
         if scratch:
             found, names = ports(module, parameters, scratch)
             (scratch / "ports.json").write_text(json.dumps([asdict(port) for port in found]))
             flags = [*VERILATOR_FLAGS, *(["--trace"] if waves else [])]
+            flags += ["--coverage-line", "--coverage-toggle"] if coverage else []
+            text = netlist.read_text() if netlist else ""
+            faulty = re.search(r"input (\[[\d:]+\] )?mutant_i;", text)
+            flags += ["-Wno-fatal"] if netlist else []  # widths as they are; a fault may make a loop of logic
             if public is not None:
                 flags += ["--vpi", "public.vlt"]
-                (scratch / "public.vlt").write_text(_public(module, found, [] if netlist else [*names, *public]))
+                (scratch / "public.vlt").write_text(
+                    _public(module, found, [name for name in [*names, *public] if shown(name, text)])
+                )
             run(
                 [verilator.program, *flags, "--top-module", module, "--Mdir", scratch,
                  *(f"-G{name}={value}" for name, value in parameters.items() if not netlist), *files],
@@ -258,7 +267,10 @@ def build(
             )  # fmt: skip
             units = "".join(f'#include "{unit.name}"\n' for unit in sorted(scratch.glob("Vdut*.cpp")))
             harness = f'#include "{HERE / "harness.cpp"}"\n'
-            (scratch / "all.cpp").write_text(f"#define WAVES {int(waves)}\n{units}{glue(found)}{harness}")
+            chosen = "t.mutant_i = v;" if faulty else ""
+            macros = f'#define WAVES {int(waves)}\n#define COVERAGE {int(coverage)}\n#define MODEL_KEY "{path.name}"\n'
+            mutant = f"void set_mutant(DUT& t, uint64_t v) {{ (void)t; (void)v; {chosen} }}\n"
+            (scratch / "all.cpp").write_text(f"{macros}{units}{glue(found)}{mutant}{harness}")
             common = runtime(waves)
             run(
                 ["g++", *CXX_FLAGS, *include(verilator.root), "-include", common / "model.h", "-shared",
@@ -266,6 +278,11 @@ def build(
                 scratch,
             )  # fmt: skip
     return path / "model.so", known_ports(path / "model.so")
+
+
+def shown(name: str, netlist: str) -> bool:
+    """Is an inner name there to be shown? A netlist may have lost it, and has parameters only if they were put back."""
+    return not netlist or "*" in name or f"parameter {name} =" in netlist
 
 
 def known_ports(library: Path) -> list[Port]:

@@ -10,6 +10,7 @@ import functools
 import os
 import random
 import re
+import resource
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,6 +27,10 @@ from polyshade.sim.verilate import known_ports
 
 PERIOD = 10  # of the clock, in ns
 PATIENCE = 200_000  # clocks after which a test is over
+
+MUTANT = int(os.environ.get("MUTANT", "0"))  # the fault that a netlist with faults has, see scripts/flow/mutants.py
+if MUTANT:  # it may make the bench wait for ever
+    resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
 
 TRAFFIC = {"gap": [0.0, 0.5], "reset": [0.0, 0.02]}
 """What a pipeline must stand: rows on every clock or with gaps, resets in the middle."""
@@ -51,7 +56,12 @@ def checked(**options: Sequence) -> Callable:
         async def test(dut: HierarchyObject, **chosen: object) -> None:
             bench = Bench(dut)
             await bench.start()
-            await coroutine(bench, **chosen)
+            try:
+                await coroutine(bench, **chosen)
+            except BaseException:  # a time limit is a cancellation
+                if MUTANT:  # one failure is enough
+                    os._exit(1)
+                raise
             if not bench.checks:
                 raise Mismatch("nothing was checked")
 

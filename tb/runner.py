@@ -23,7 +23,7 @@ import cocotb_tools.config
 import pytest
 from cocotb_tools.runner import get_runner
 from polyshade.sim import tools, verilate
-from polyshade.sim.model import glue
+from polyshade.sim.model import glue, netlist_of
 from polyshade.sim.sources import BUILD, Point, label, modules, yardsticks
 
 SEED = int(os.environ.get("SEED", "1"))
@@ -48,7 +48,8 @@ def simulate(module: str, point: Point, bench: str = "", public: tuple[str, ...]
     folder.mkdir(parents=True, exist_ok=True)
     bench = bench or f"tb.{(modules() | yardsticks())[module].parent.name}.test_{module.removeprefix('shade_')}"
     with _locked(folder), mock.patch.dict(os.environ, tools.environment()):
-        library, _ = verilate.build(module, point, glue, waves=WAVES, public=public)
+        netlist = netlist_of(module, point)
+        library, _ = verilate.build(module, point, glue, waves=WAVES, public=public, netlist=netlist)
         os.environ |= {"MODEL": str(library), "POINT": label(module, point)}
         results = _run(module, library, bench, folder)
     if WAVES:
@@ -81,6 +82,7 @@ def _run(module: str, library: Path, bench: str, folder: Path) -> Path:
     runner = get_runner("verilator")
     runner.log.setLevel(logging.CRITICAL)  # its words stand in the logs
     results = folder / "results.xml"
+    results.unlink(missing_ok=True)
     with contextlib.suppress(SystemExit, RuntimeError):  # what failed stands in the results
         runner.test(
             test_module=bench, hdl_toplevel=module, hdl_toplevel_lang="verilog", build_dir=folder, test_dir=folder,

@@ -116,7 +116,7 @@ def sources(proof: Proof) -> list[Path]:
 
 def graph(proof: Proof, folder: Path, files: list[Path]) -> list[str]:
     """Write ``proof.aig`` into the folder; return the names of its properties, in the order of its outputs."""
-    chosen = "".join(f" -chparam {name} {value}" for name, value in proof.point.items())
+    chosen = tools.chparam(proof.point)
     top = f"formal_{proof.name}"
     script = f"""
         read_verilog -sv -formal {" ".join(map(str, files))} {proof.source}

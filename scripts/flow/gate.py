@@ -4,9 +4,10 @@
     [{"netlist": "shade_third[WIDTH=26]", "family": "ecp5", "test": "refined", "vectors": 100000, "mismatches": 0}]
 
 Every unit, at every parameter point of its cases, is synthesized for every family of ``FAMILIES`` as a user's flow does
-it, flattened, all the way to the family's cells. The cells become their simulation models and the
-result takes the place of the RTL: the unit's own vectors run through it and are compared with the golden model in
-every bit and in every latency. What synthesis gets wrong, and what the RTL leaves undefined, shows here.
+it, flattened, all the way to the family's cells. The cells become their simulation models and the result takes the
+place of the RTL: the unit's own vectors run through it and are compared with the golden model in every bit and in every
+latency; so do the streams of ``STREAMS``, among them a whole core. What synthesis gets wrong, and what the RTL leaves
+undefined, shows here.
 
 * Models of cells are those of Yosys; it has none of ECP5's multiplier and block RAM, which :func:`blocks_ecp5` writes.
 * Initial values that a family gives to registers are taken out: registers without reset start with random contents.
@@ -20,19 +21,24 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
+import numpy as np
 from polyshade import sim
+from polyshade.golden import contract as k
+from polyshade.golden.material import planner_registers, registers
 from polyshade.scripts.flow import tools
+from polyshade.scripts.flow.points import SMALL
 from polyshade.scripts.report import save
+from polyshade.sim import core
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, Point, label
-from polyshade.sim.units import Case, cases
+from polyshade.sim.units import Case, Result, cases, check_pixel_normals, check_poly_span
 from polyshade.sim.units.case import Arrays
 from polyshade.sim.verilate import reached
 from tqdm import tqdm
@@ -57,6 +63,10 @@ FAMILIES = {
             "read_verilog -overwrite -DNO_INCLUDES -I{share}/ecp5 {share}/ecp5/cells_sim.v\n"
             "read_verilog -overwrite blocks.v"
         ),
+    ),
+    "ice40": Family(  # with the multipliers of an UP5K
+        "synth_ice40 -dsp",
+        "read_verilog -overwrite -DNO_ICE40_DEFAULT_ASSIGNMENTS {share}/ice40/cells_sim.v",
     ),
 }
 
@@ -151,7 +161,7 @@ def netlist(family: str, module: str, point: Point) -> Path:
     """The file of a module's netlist, made of simulation models of a family's cells; synthesized unless it is there."""
     folder = WORK / family / re.sub(r"\W+", "_", label(module, point)).rstrip("_")
     folder.mkdir(parents=True, exist_ok=True)
-    files, chosen = reached(module), "".join(f" -chparam {name} {value}" for name, value in point.items())
+    files, chosen = reached(module), tools.chparam(point)
     share = Path(find_spec("pyosys").origin).parent / "share"
     script = f"""
         read_verilog -noassert -sv {" ".join(os.path.relpath(path, folder) for path in files)}
@@ -201,22 +211,62 @@ def check(case: Case, family: str, vectors: int = VECTORS, seed: int = 1) -> dic
     return {**found, "vectors": result.vectors, "mismatches": result.mismatches, **told}
 
 
+def _core(vectors: int, seed: int) -> Result:
+    """Spans through a core of one lane with Lambert's and Blinn-Phong's light, by random registers."""
+    from polyshade.scripts.flow import soak
+
+    total = Result()
+    for part in range(max(1, vectors // 20_000)):
+        rng = np.random.default_rng([seed, part])
+        surface = soak.material(rng, ("lambert", "blinn"))
+        words = registers(surface, soak.direction(rng)) | planner_registers(surface)
+        made = core.draw(soak.lines(rng, 400), words, options={"in_gap": 0.2, "out_stall": 0.2, "seed": seed}, **CORE)
+        first = str(made.first_mismatch or made.counter_mismatches or "")
+        total.add(Result(len(made.pixels), made.mismatches + len(made.counter_mismatches), first))
+    return total
+
+
+CORE = {"LANES": 1, "EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED, **SMALL}
+SPAN = {"EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED}
+STREAMS: dict[str, tuple[str, Point, Callable[[int, int], Result]]] = {  # what it is: module, point, vectors and seed
+    "spans of random registers": ("shade_core", CORE, _core),
+    "spans": (
+        "shade_poly_span",
+        SPAN,
+        lambda n, s: check_poly_span("refined", k.EVALUATOR_FDIFF, n // 12, s, 0.2, 0.2),
+    ),
+    "lines": ("shade_pixel_normals", {}, lambda n, s: check_pixel_normals(n // 10, s, 0.2, 0.2)),
+}
+
+
+def stream(name: str, family: str, vectors: int = VECTORS, seed: int = 1) -> dict:
+    """One entry of the report: a stream on the netlist of its module."""
+    module, point, check_stream = STREAMS[name]
+    with sim.netlists(lambda module, point: netlist(family, module, point)):
+        result = check_stream(vectors, seed)
+    told = {"first_mismatch": result.first_mismatch} if result.mismatches else {}
+    found = {"netlist": label(module, point), "family": family, "test": name}
+    return {**found, "vectors": result.vectors, "mismatches": result.mismatches, **told}
+
+
 def main(names: list[str] | None = None) -> int:
     """Check the cases of the named modules (all without a name), leave ``build/gate.json``; 1 if anything differs."""
     chosen = cases()
-    known = {case.module for case in chosen}
+    known = {case.module for case in chosen} | {module for module, _, _ in STREAMS.values()}
     for name in names or []:
         if name not in known:
             raise UserError(f"{name}: no such unit, allowed {', '.join(sorted(known))}")
     wanted = [index for index, case in enumerate(chosen) if not names or case.module in names]
-    jobs = [(index, family) for family in FAMILIES for index in wanted]
+    long = [name for name, (module, _, _) in STREAMS.items() if not names or module in names]
+    jobs = [(job, family) for job in [*long, *wanted] for family in FAMILIES]  # the longest first
     report = []
-    with ProcessPoolExecutor(os.cpu_count()) as pool:
-        running = [pool.submit(_job, case, family) for case, family in jobs]
+    with ProcessPoolExecutor(int(os.environ.get("JOBS") or os.cpu_count())) as pool:
+        running = [pool.submit(_job, *job) for job in jobs]
         for done in tqdm(as_completed(running), "gate", len(running), disable=None):
             report.append(done.result())
     report.sort(key=lambda entry: (entry["family"], entry["netlist"], entry["test"]))
-    save(OUT, report)
+    if not names:
+        save(OUT, report)
     wrong = [entry for entry in report if entry["mismatches"]]
     vectors = sum(entry["vectors"] for entry in report)
     print(f"{len(report)} runs on netlists, {vectors} vectors, {len(wrong)} with mismatches")
@@ -225,8 +275,9 @@ def main(names: list[str] | None = None) -> int:
     return 1 if wrong else 0
 
 
-def _job(case: int, family: str) -> dict:
-    return check(cases()[case], family)  # functions do not travel between processes, numbers do
+def _job(job: int | str, family: str) -> dict:
+    """A case by its number, as functions do not travel between processes, or a stream by its name."""
+    return stream(job, family) if isinstance(job, str) else check(cases()[job], family)
 
 
 if __name__ == "__main__":

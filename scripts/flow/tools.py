@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from polyshade.sim.errors import UserError
-from polyshade.sim.sources import ROOT
+from polyshade.sim.sources import ROOT, Point
 from polyshade.sim.tools import environment, package, versions
 
 
@@ -24,6 +24,12 @@ def yosys(script: str, directory: Path) -> str:
     (directory / "yosys.ys").write_text(script)
     command = [sys.executable, "-m", "polyshade.scripts.flow.yosys", "yosys.ys"]
     return _run("yosys", command, directory, {**os.environ, "PYTHONPATH": str(ROOT)})
+
+
+def chparam(point: Point) -> str:
+    """Options of Yosys' ``hierarchy`` for a parameter point; negative numbers by their bits, as it reads no sign."""
+    numbers = {name: value if value >= 0 else f"32'sh{value & 0xFFFFFFFF:08x}" for name, value in point.items()}
+    return "".join(f" -chparam {name} {value}" for name, value in numbers.items())
 
 
 def nextpnr_ecp5(arguments: list[str], directory: Path) -> str:

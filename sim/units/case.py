@@ -105,19 +105,25 @@ class Case:
     def check(self, vectors: int = CHUNK, seed: int = 1, tick: Callable[[int], object] = lambda rows: None) -> Result:
         """Run the vectors through RTL, golden model and exact formula. ``tick`` is told the rows that are done."""
         model = sim.load(self.module, public=(), **self.parameters)  # compiled once for both engines
-        fixed_latency = self.latency if model.interface.clock and not model.interface.out.valid else 0
-        pace = self.clocks_per_vector if model.interface.phase else 1
         total = Result(latency=self.latency)
         for inputs in self.stream(vectors, seed):
-            rows = len(next(iter(inputs.values())))
-            run = model.run(latency=fixed_latency, pace=pace, seed=seed, **self._delayed(inputs))
-            result = Result(vectors=rows, latency=self.latency, throughput=len(run.given) / (run.clocks - self.latency))
             golden = self.golden(inputs)
-            self._compare(model, inputs, golden, run, result)
+            result = self.compare(model, inputs, golden, seed)
             self._measure(inputs, golden, result)
             total.add(result)
-            tick(rows)
+            tick(result.vectors)
         return total
+
+    def compare(self, model: sim.Model, inputs: Arrays, golden: Arrays, seed: int, **run: object) -> Result:
+        """Vectors through the RTL, every bit and latency against the golden outputs; ``run``: of ``Model.run``."""
+        rows = len(next(iter(inputs.values())))
+        fixed_latency = self.latency if model.interface.clock and not model.interface.out.valid else 0
+        pace = self.clocks_per_vector if model.interface.phase else 1
+        made = model.run(latency=fixed_latency, pace=pace, seed=seed, **run, **self._delayed(inputs))
+        clocks = max(made.clocks - self.latency, 1)
+        result = Result(vectors=rows, latency=self.latency, throughput=len(made.given) / clocks)
+        self._compare(model, inputs, golden, made, result)
+        return result
 
     def sample(self, rows: int, seed: int) -> Iterator[Arrays]:
         """About so many vectors for a slow engine, run by run; settings are others in each of eight runs.

@@ -181,7 +181,8 @@ def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: in
     e = np.where(rng.random(rows) < 1 / 8, rng.integers(low, high, rows, endpoint=True), above - exponent)
     values = {"lobe": lobe, "num": num.clip(0, ONE), "fresnel": ONE, "w": 0, "e": e.clip(low, high)}
     found = {f"{name}_i": np.broadcast_to(value, rows).copy() for name, value in values.items()}
-    for row, numbers in enumerate([(10572, 17019, ONE, 0, 5), (ONE, ONE, ONE, 0, 0), (ONE, ONE, ONE, 0, 1)]):
+    ones = ((ONE, ONE, ONE, 0, power) for power in range(low, high + 1))  # a single bit, at every place
+    for row, numbers in enumerate([(10572, 17019, ONE, 0, 5), *ones][:rows]):
         for values, number in zip(found.values(), numbers, strict=True):
             values[row] = number
     return found

@@ -30,7 +30,7 @@ def test_error_of_every_mantissa() -> None:
 @checked()
 async def values(bench: Bench) -> None:
     """Numbers of every length, back to back and with pauses: e after 4 clocks, r after 14, which hold."""
-    lengths = bench.rng.integers(0, BITS, 200)
+    lengths = bench.rng.integers(0, BITS, 1200)
     numbers = [int(bench.rng.integers(1 << n, 2 << n)) for n in lengths] + [1, (1 << BITS) - 1, 1 << BITS - 1]
     for a in numbers:
         r, e = (int(v) for v in reciprocal(a))
@@ -41,5 +41,5 @@ async def values(bench: Bench) -> None:
         bench.equal(int(bench.dut.e_o.value), e, f"e of {a}")
         await bench.tick(k.LATENCY_RECIPROCAL - k.LATENCY_EXPONENT)
         bench.equal(int(bench.dut.r_o.value), r, f"r of {a}")
-        await bench.tick(int(bench.rng.integers(0, 40)))
+        await bench.tick(int(bench.rng.choice([0, 1, 2, 40], p=[0.5, 0.3, 0.19, 0.01])))
         bench.equal((int(bench.dut.e_o.value), int(bench.dut.r_o.value)) == (e, r), True, "e and r hold")

@@ -41,6 +41,15 @@ def _clamp(value, low, high):
     return min(max(value, low), high)
 
 
+def flat(name: str) -> str:
+    """Fields of structures as ports of their own: ``a_i.x`` is ax_i, ``draw_i.material.k1`` k1_i, ``n_o.x`` nx_o."""
+    port, *path = name.split(".")
+    if not path:
+        return name
+    base, way = port[:-2], port[-2:]
+    return ([base, *path][-2] if path[-1] in ("x", "y", "z") else "") + path[-1] + way
+
+
 def _vector(row: Row, name: str) -> list:
     return [mpf(row[f"{name}{axis}_i"]) for axis in "xyz"]
 
@@ -95,22 +104,22 @@ def _horner(row: Row, case: Case) -> dict:
 
 
 def _normalize(row: Row, case: Case) -> dict:
-    v = [mpf(row[f"{axis}_i"]) for axis in "xyz"]
+    v = _vector(row, "v")
     length = mp.sqrt(_dot(v, v))
-    return {f"{axis}_o": x * ONE / length if length else mpf(0) for axis, x in zip("xyz", v, strict=True)}
+    return {f"n{axis}_o": x * ONE / length if length else mpf(0) for axis, x in zip("xyz", v, strict=True)}
 
 
 def _unit(row: Row, case: Case) -> dict:
     """v / |v|; of a vector shorter than 1/4 the factor stops growing with powers of two."""
-    v = [mpf(row[f"{axis}_i"]) for axis in "xyz"]
+    v = _vector(row, "v")
     if row["bypass_i"]:
-        return {f"{axis}_o": _clamp(2 * x, LOW, HIGH) for axis, x in zip("xyz", v, strict=True)}
+        return {f"normal{axis}_o": _clamp(2 * x, LOW, HIGH) for axis, x in zip("xyz", v, strict=True)}
     length = mp.sqrt(_dot(v, v))
     if not length:
-        return {f"{axis}_o": mpf(0) for axis in "xyz"}
+        return {f"normal{axis}_o": mpf(0) for axis in "xyz"}
     exponent = mp.frexp(length)[1]
     lack = max(0, k.NODE_F - 2 - exponent)
-    return {f"{axis}_o": mp.ldexp(x * ONE / length, -lack) for axis, x in zip("xyz", v, strict=True)}
+    return {f"normal{axis}_o": mp.ldexp(x * ONE / length, -lack) for axis, x in zip("xyz", v, strict=True)}
 
 
 def _dot3(row: Row, case: Case) -> dict:
@@ -218,18 +227,18 @@ def judge(case: Case, vectors: int, seed: int) -> dict:
         golden, exact = case.golden(inputs), case.exact(inputs)
         count = len(next(iter(inputs.values())))
         found["vectors"] += count
-        names = [name for name in golden if name in oracle({n: int(v[0]) for n, v in inputs.items()}, case)]
+        names = [name for name in golden if flat(name) in oracle({flat(n): int(v[0]) for n, v in inputs.items()}, case)]
         total = np.max([np.abs(golden[name] - exact[name]).astype(float) for name in names], axis=0)
         chosen = np.r_[np.argsort(total)[-LARGEST:], rng.integers(0, count, RANDOM)]
         for index in chosen:
-            row = {name: int(value[index]) for name, value in inputs.items()}
+            row = {flat(name): int(value[index]) for name, value in inputs.items()}
             true = oracle(row, case)
             for name in names:
-                error = abs(int(golden[name][index]) - true[name])
-                apart = abs(mpf(str(exact[name][index])) - true[name]) if np.ndim(exact[name]) else mpf(0)
+                error = abs(int(golden[name][index]) - true[flat(name)])
+                apart = abs(mpf(str(exact[name][index])) - true[flat(name)]) if np.ndim(exact[name]) else mpf(0)
                 found["disagreement"] = max(found["disagreement"], float(apart))
                 if error > found["worst"]:
-                    found["worst"], found["input"] = float(error), row | {"output": name}
+                    found["worst"], found["input"] = float(error), row | {"output": flat(name)}
         found["rows"] += len(chosen)
     return found
 
@@ -248,11 +257,11 @@ def light_by_shininess(seed: int) -> dict[str, float]:
         normal = np.rint(bent / np.linalg.norm(bent, axis=0) * ONE).astype(np.int64)
         inputs = {f"{name}_i": np.full(rows, value) for name, value in words.items()}
         inputs |= {f"n{axis}_i": part for axis, part in zip("xyz", normal, strict=True)}
-        inputs = {name: inputs[name] for name in next(case.stream(1, 1)) if name in inputs}
+        inputs = {name: inputs[flat(name)] for name in next(case.stream(1, 1))}
         golden, exact = case.golden(inputs)["specular_o"], case.exact(inputs)["specular_o"]
         error = mpf(0)
         for index in np.argsort(np.abs(golden - exact).astype(float))[-LARGEST:]:
-            row = {name: int(value[index]) for name, value in inputs.items()}
+            row = {flat(name): int(value[index]) for name, value in inputs.items()}
             error = max(error, abs(int(golden[index]) - _light(row, case)["specular_o"]))
         worst[str(n)] = float(error)
     return worst

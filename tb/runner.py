@@ -23,13 +23,14 @@ import cocotb_tools.config
 import pytest
 from cocotb_tools.runner import get_runner
 from polyshade.sim import tools, verilate
-from polyshade.sim.model import glue, netlist_of
+from polyshade.sim.model import glue
 from polyshade.sim.sources import BUILD, Point, label, modules, yardsticks
 
 SEED = int(os.environ.get("SEED", "1"))
 WAVES = os.environ.get("WAVES", "0") not in ("", "0")
-TESTS = BUILD / "test"
+TESTS = Path(os.environ["NETLIST"]).parent / "test" if "NETLIST" in os.environ else BUILD / "test"
 FULL = os.environ.get("FULL", "0") not in ("", "0")
+NETLIST = Path(os.environ["NETLIST"]) if "NETLIST" in os.environ else None  # in place of the RTL: `make mutants`
 HANGS = 600  # seconds after which a process is given up: ten times what the slowest needs, never a measure of speed
 
 # Registers that are not reset start with random bits: a missing reset shows.
@@ -48,8 +49,7 @@ def simulate(module: str, point: Point, bench: str = "", public: tuple[str, ...]
     folder.mkdir(parents=True, exist_ok=True)
     bench = bench or f"tb.{(modules() | yardsticks())[module].parent.name}.test_{module.removeprefix('shade_')}"
     with _locked(folder), mock.patch.dict(os.environ, tools.environment()):
-        netlist = netlist_of(module, point)
-        library, _ = verilate.build(module, point, glue, waves=WAVES, public=public, netlist=netlist)
+        library, _ = verilate.build(module, point, glue, waves=WAVES, public=public, netlist=NETLIST)
         os.environ |= {"MODEL": str(library), "POINT": label(module, point)}
         results = _run(module, library, bench, folder)
     if WAVES:

@@ -20,29 +20,29 @@ all modules with the default seed raises it. ``NAMED`` are faults of the RTL's t
 
 from __future__ import annotations
 
-import contextlib
-import importlib
 import inspect
 import itertools
 import json
 import math
 import os
 import re
+import subprocess
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from unittest import mock
 
 import numpy as np
 from polyshade import sim
 from polyshade.golden import contract as k
-from polyshade.scripts.flow import formal, gate, tools
+from polyshade.golden.material import Material
+from polyshade.scripts.flow import formal, gate, soak, tools
 from polyshade.scripts.report import save
+from polyshade.sim import patch
 from polyshade.sim.errors import UserError
-from polyshade.sim.sources import BUILD, ROOT, Point, modules
+from polyshade.sim.sources import BUILD, ROOT, Point, label, modules
 from polyshade.sim.units import Case, cases, check_pixel_normals, check_poly_span
 from polyshade.sim.verilate import key_of, once, ports, reached
 from tqdm import tqdm
@@ -97,12 +97,13 @@ class Target:
 def targets() -> list[Target]:
     """Every module with what it is tested by."""
     points = {case.module: case.parameters for case in reversed(cases())}
-    points["shade_poly_span"] = {"EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED}
     points[PARTS] = {"LANES": 2}
     found = []
     for module, path in modules().items():
         own = ROOT / "tb" / path.parent.name / f"test_{path.stem.removeprefix('shade_')}.py"
-        bench = f"tb.{path.parent.name}.{own.stem}" if own.exists() and "def test_cocotb" in own.read_text() else ""
+        text = own.read_text() if own.exists() else ""
+        first = "[default]" if "def test_cocotb(point)" in text else ""
+        bench = f"{own.relative_to(ROOT)}::test_cocotb{first}" if "def test_cocotb(" in text else ""
         inner = module.startswith(f"{PARTS}_") and module not in points
         if module not in NONE:
             found.append(Target(module, PARTS if inner else module, points.get(PARTS if inner else module, {}), bench))
@@ -225,15 +226,10 @@ def _with_parameters(target: Target, text: str, folder: Path) -> str:
 
 def _frames() -> bool:
     """Triangles of all kinds through ``shade_patch``: equal?"""
-    sys.path[:0] = [str(ROOT)] * (str(ROOT) not in sys.path)
-    from polyshade.golden.material import Material
-    from polyshade.sim import patch
-
-    from tb.surface.vectors import LIGHT, triangles
-
-    for material, seed in (("blinn", 1), ("lambert", 2), ("blinn", 3)):
-        given = triangles(np.random.default_rng(seed), 120)
-        made = patch.draw(given, Material(material, 100), LIGHT, lanes=2, seed=seed, out_stall=0.2 * (seed != 3))
+    for model, seed in (("blinn", 1), ("lambert", 2), ("blinn", 3)):
+        given = soak.triangles(np.random.default_rng(seed), 120)
+        light = soak.direction(np.random.default_rng(seed))
+        made = patch.draw(given, Material(model, 100), light, lanes=2, seed=seed, out_stall=0.2 * (seed != 3))
         if made.mismatches or made.counter_mismatches:
             return False
     return True
@@ -241,7 +237,7 @@ def _frames() -> bool:
 
 def _spans() -> bool:
     return not any(
-        check_poly_span("refined", k.EVALUATOR_FDIFF, 300, 1, *pause).mismatches for pause in ((), (0.3, 0.3))
+        check_poly_span("refined", k.EVALUATOR_HORNER, 300, 1, *pause).mismatches for pause in ((), (0.3, 0.3))
     )
 
 
@@ -298,32 +294,24 @@ def by_stream(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int
 
 def by_bench(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]:
     """The mutants that a cocotb bench kills."""
-    sys.path[:0] = [str(ROOT)] * (str(ROOT) not in sys.path)
-    import pytest
-
-    from tb import runner
+    tests = [target.bench] if target.bench else []
+    if any(not case.ordered for case in target.cases):
+        tests.insert(0, f"tb/test_units.py::test_cocotb[{label(target.top, target.point)}]")
 
     def passes(mutant: int) -> bool:
-        with mock.patch.dict(os.environ, {"MUTANT": str(mutant)}), contextlib.redirect_stdout(None):
-            try:
-                for bench in benches:
-                    bench()
-            except pytest.fail.Exception:
-                return False
-            return True
+        environment = os.environ | {"MUTANT": str(mutant), "NETLIST": str(faults.verilog)}
+        command = [sys.executable, "-m", "pytest", "-q", "-x", "-n", "0", "-p", "no:cacheprovider", *tests]
+        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+        (faults.folder / "bench.log").write_text(done.stdout + done.stderr)
+        if done.returncode not in (0, 1):
+            raise UserError(f"{target.module}: {faults.folder / 'bench.log'}: the bench did not run")
+        return done.returncode == 0
 
-    benches: list[Callable[[], None]] = []
-    if any(not case.ordered for case in target.cases):
-        benches.append(lambda: runner.simulate(target.top, target.point, "tb.case_bench"))
-    if target.bench:
-        own = importlib.import_module(target.bench).test_cocotb
-        benches.append((lambda: own(target.point)) if inspect.signature(own).parameters else own)
-    with mock.patch.object(runner, "TESTS", faults.folder / "test"):
-        if not passes(0):
-            raise Differs(f"{target.module}: its bench fails without a fault")
-        for mutant in alive:
-            if not passes(mutant):
-                yield mutant
+    if not passes(0):
+        raise Differs(f"{target.module}: its bench fails without a fault")
+    for mutant in alive:
+        if not passes(mutant):
+            yield mutant
 
 
 def exhausted(target: Target, faults: Netlist, alive: list[int]) -> bool:

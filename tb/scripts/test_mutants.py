@@ -17,10 +17,10 @@ def work(tmp_path, monkeypatch) -> None:
     (tmp_path / "work").mkdir()
 
 
-@pytest.mark.parametrize("module", ["shade_weigh", "shade_credit", "shade_gain"])
+@pytest.mark.parametrize("module", ["shade_weigh", "shade_gain"])
 def test_sample(module: str) -> None:
     """Twelve mutants by the module's vectors alone: what lives on is equivalent."""
-    row = mutants.judge(TARGETS[module], 12, 5, bench=module == "shade_credit")
+    row = mutants.judge(TARGETS[module], 12, 5, bench=False)
     assert row["generated"] == 12
     assert row["killed"] + row["equivalent"] == 12, row["survived"]
 

@@ -489,7 +489,23 @@ CHOICE = Struct(
         Field("threshold", k.INTENSITY_W, "of d2", "S1.16"),
     ),
 )
-ARC = Struct("arc_t", "unit normals along an arc", tuple(_part(f"n{i}", VEC, f"at {i}/4") for i in range(5)))
+MIDDLE = Struct(
+    "middle_t",
+    "the unit normal in the middle of two",
+    (
+        _part("normal", VEC),
+        Field("half", k.INTENSITY_W, "cosine of half their angle", "S1.16"),
+        Field("clamped", 1, "their cosine was not in [0, 1]"),
+    ),
+)
+ARC = Struct(
+    "arc_t",
+    "unit normals along an arc",
+    (
+        *(_part(f"n{i}", VEC, f"at {i}/4") for i in range(5)),
+        Field("clamped", 1, "the cosine of its ends was not in [0, 1]"),
+    ),
+)
 
 COSINES = _vector(
     "cosines_t", "of the angles between the normals of a triangle", k.INTENSITY_W, "S1.16", ("ab", "bc", "ca")

@@ -475,7 +475,8 @@ package shade_pkg;
   localparam int INVC_BITS = 37;
   localparam int METRIC_BITS = 41;
   localparam int CHOICE_BITS = 23;
-  localparam int ARC_BITS = 270;
+  localparam int MIDDLE_BITS = 73;
+  localparam int ARC_BITS = 271;
   localparam int COSINES_BITS = 54;
   localparam int CRITERION_BITS = 23;
   localparam int JOB_BITS = 209;
@@ -806,8 +807,16 @@ package shade_pkg;
     logic middle;  // 0: it is the first of both
   } choice_t;
 
+  // the unit normal in the middle of two
+  typedef struct packed {
+    logic clamped;  // their cosine was not in [0, 1]
+    logic signed [17:0] half;  // S1.16: cosine of half their angle
+    vec_t normal;  // a vector; of a node, before it is normalized, S2.15
+  } middle_t;
+
   // unit normals along an arc
   typedef struct packed {
+    logic clamped;  // the cosine of its ends was not in [0, 1]
     vec_t n4;  // at 4/4
     vec_t n3;  // at 3/4
     vec_t n2;  // at 2/4

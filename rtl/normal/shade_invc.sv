@@ -55,9 +55,9 @@ module shade_invc #(
   shade_delay #(.WIDTH(F + 1), .DEPTH(MUL)) u_vv (.clk_i, .d_i((F + 1)'(square_q3 >> CUT)), .q_o(vv_q5));
   if (REFINED) begin : g_fourth
     logic [2*C_W:0] fourth_q5;
-    shade_square #(.WIDTH(C_W + 1)) u_fourth (
-      .clk_i, .x_i({1'b0, C_W'(square_q3 >> shade_pkg::INTENSITY_F)}), .y_o(fourth_q5)
-    );
+    logic signed [C_W:0] square;
+    assign square = (C_W + 1)'(square_q3 >> shade_pkg::INTENSITY_F);  // at most 1
+    shade_square #(.WIDTH(C_W + 1)) u_fourth (.clk_i, .x_i(square), .y_o(fourth_q5));
     assign vvvv_q5 = (F + 1)'(fourth_q5 >> CUT);
     logic unused_fourth;
     assign unused_fourth = &{1'b0, fourth_q5};

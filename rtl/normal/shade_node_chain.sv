@@ -5,7 +5,7 @@
 //   N1 = (Na + N2) InvC(h)      N3 = (N2 + Nb) InvC(h)                    so that no other dot product is needed
 //
 //   a_i, b_i   S1.16        end normals
-//   c_i        S1.16        clamped to [0, 1]; clamped_o tells, with the result
+//   c_i        S1.16        clamped to [0, 1]; arc_o.clamped tells, with the result
 //   arc_o      S1.16        n0 .. n4, normals at i/4: N0 = Na, N4 = Nb; rounding and saturation: shade_bisect
 //
 // FORM and DEGREE: see shade_invc. Refined: within 2.5e-4 of the exact points of the arc (slerp) up to 60 degrees.
@@ -20,8 +20,7 @@ module shade_node_chain #(
   input  shade_pkg::vec_t                          a_i,
   input  shade_pkg::vec_t                          b_i,
   input  logic signed [shade_pkg::INTENSITY_W-1:0] c_i,
-  output shade_pkg::arc_t                          arc_o,
-  output logic                                     clamped_o
+  output shade_pkg::arc_t                          arc_o
 );
   localparam int INVC = shade_pkg::LATENCY_INVC;
   localparam int STEP = shade_pkg::LATENCY_MIDPOINT;  // the clock of N2; InvC(h) comes at 2 INVC
@@ -46,7 +45,7 @@ module shade_node_chain #(
   shade_ring #(.WIDTH($bits(a_q12) + $bits(n_q12) + $bits(b_q12)), .DEPTH(LATENCY - STEP)) u_nodes (
     .clk_i, .rst_i, .d_i({a_q12, n_q12, b_q12}), .q_o({arc_o.n0, arc_o.n2, arc_o.n4})
   );
-  shade_delay #(.WIDTH(1), .DEPTH(LATENCY - INVC)) u_clamped (.clk_i, .d_i(invc_q9.clamped), .q_o(clamped_o));
+  shade_delay #(.WIDTH(1), .DEPTH(LATENCY - INVC)) u_clamped (.clk_i, .d_i(invc_q9.clamped), .q_o(arc_o.clamped));
 
   logic unused_bits;
   assign unused_bits = &{1'b0, invc_q18};

@@ -63,7 +63,9 @@ module shade_criterion #(
 
     if (REFINED) begin : g_refined
       logic [2*W-2:0] fourth_q5;
-      shade_square u_fourth (.clk_i, .x_i({1'b0, (C_F + 1)'(square_q3 >> C_F)}), .y_o(fourth_q5));
+      logic signed [W-1:0] square;
+      assign square = W'(square_q3 >> C_F);  // at most 1
+      shade_square u_fourth (.clk_i, .x_i(square), .y_o(fourth_q5));
       assign vvvv_q5[e] = V_W'(fourth_q5 >> (2 * C_F - F));
       logic unused_fourth;
       assign unused_fourth = &{1'b0, fourth_q5};

@@ -40,19 +40,18 @@ module shade_line #(
   localparam int LOG2 = shade_pkg::SPAN_FIFO_LOG2;
 
   // ---- spans, beside their plans: a plan comes later than its span -------------------------------------------------
-  logic take, taken, job_valid, planned, plan_valid, walk_ready, walk, unused_soon, unused_taken;
+  logic take, taken, job_valid, job_taken, planned, plan_valid, plan_taken, unused_soon, unused_taken;
   shade_pkg::job_t job, job_next;
   shade_pkg::plan_t plan, plan_next;
   assign ready_o       = room_o && (FOLD == 1 || phase_i == '0);
   assign take          = valid_i && ready_o;
-  assign walk          = walk_ready && plan_valid;
   assign job.normal    = span_i.normal;
   assign job.increment = span_i.increment;
   assign job.flat      = span_i.flat && draw_i.material.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_LAMBERT);
   assign job.tag       = span_i.tag;
   shade_credit #(.LOG2(LOG2)) u_room (.clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(room_o), .soon_o(unused_soon));
   shade_fifo #(.WIDTH($bits(job)), .LOG2(LOG2), .BLOCK(1)) u_jobs (
-    .clk_i, .rst_i, .valid_i(take), .data_i(job), .valid_o(job_valid), .ready_i(walk), .data_o(job_next),
+    .clk_i, .rst_i, .valid_i(take), .data_i(job), .valid_o(job_valid), .ready_i(job_taken), .data_o(job_next),
     .taken_o(taken)
   );
 
@@ -63,16 +62,16 @@ module shade_line #(
   );
   shade_valid #(.DEPTH(LATENCY)) u_planned (.clk_i, .rst_i, .valid_i(take), .valid_o(planned));
   shade_fifo #(.WIDTH($bits(plan)), .LOG2(LOG2), .BLOCK(1)) u_plans (
-    .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(walk), .data_o(plan_next),
+    .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(plan_taken), .data_o(plan_next),
     .taken_o(unused_taken)
   );
-  shade_assert u_job (.clk_i, .rst_i, .holds_i(!plan_valid || job_valid));
+  shade_assert u_job (.clk_i, .rst_i, .holds_i(job_valid || (!plan_valid && !job_taken)));
 
   // ---- nodes -----------------------------------------------------------------------------------------------------
   shade_pkg::node_t node;
   shade_node_walk #(.FOLD(FOLD)) u_walk (
-    .clk_i, .rst_i, .phase_i, .valid_i(plan_valid), .ready_o(walk_ready), .job_i(job_next), .plan_i(plan_next),
-    .credit_i, .valid_o(place_valid_o), .node_o(node)
+    .clk_i, .rst_i, .phase_i, .valid_i(plan_valid), .ready_o(plan_taken), .plan_i(plan_next), .job_i(job_next),
+    .job_taken_o(job_taken), .credit_i, .valid_o(place_valid_o), .node_o(node)
   );
   assign place_o = node.place;
   localparam int TO_UNIT = FOLD < 3 ? shade_pkg::LATENCY_UNIT : shade_pkg::LATENCY_UNIT_FOLDED;

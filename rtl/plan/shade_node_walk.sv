@@ -7,7 +7,7 @@
 // {0, 4}, {0, 2, 4}, {0, 1, 2, 4}; one of degree 0 (direct) has its pixels. A record that follows one of degree >= 1 starts
 // where that ends: the node is shared (shared_o) and does not come again.
 //
-//   job_i, plan_i      a span and its plan; valid_i, ready_o: see shade_stretch
+//   plan_i, job_i      a plan and, later, its span: see shade_stretch
 //   credit_i           gives one credit back; 2^CREDIT_LOG2 are there after reset, a record costs one
 //   node_o             normal: S2.15, to nearest, ties up, saturated, not of unit length; flat: the span's;
 //                      place: slot of the node in its record, shared, last; head: of the record
@@ -25,8 +25,9 @@ module shade_node_walk #(
   input  logic [shade_pkg::PHASE_W-1:0] phase_i,
   input  logic             valid_i,
   output logic             ready_o,
-  input  shade_pkg::job_t  job_i,
   input  shade_pkg::plan_t plan_i,
+  input  shade_pkg::job_t  job_i,
+  output logic             job_taken_o,
   input  logic             credit_i,
   output logic             valid_o,
   output shade_pkg::node_t node_o
@@ -44,7 +45,8 @@ module shade_node_walk #(
   logic next_valid, load;
   shade_pkg::stretch_t next;
   shade_stretch u_stretch (
-    .clk_i, .rst_i, .valid_i, .ready_o, .job_i, .plan_i, .valid_o(next_valid), .ready_i(load), .stretch_o(next)
+    .clk_i, .rst_i, .valid_i, .ready_o, .plan_i, .job_i, .job_taken_o, .valid_o(next_valid), .ready_i(load),
+    .stretch_o(next)
   );
 
   // ---- the stretch in work: whether a node goes and whether it is the last one is known a clock before -----------------

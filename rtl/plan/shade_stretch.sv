@@ -6,9 +6,10 @@
 //   step        increment 2^log2, 2^(log2 - 1), 2^(log2 - 2) of degree 1, 2, 3: a quarter, a half or all of a record;
 //               of degree 0 (direct) the increment itself
 //
-//   job_i, plan_i      a span and what shade_planner made of it; ready_o hangs on plan_i.split, so that must come early
+//   plan_i             what shade_planner made of a span; ready_o hangs on plan_i.split, so that must come early
+//   job_i              the span itself, from the clock behind its plan on until job_taken_o, which comes with its last stretch
 //   stretch_o          shared: it starts at the last node of the stretch before
-//   valid_i, ready_o   a span is taken when both are 1, with its last stretch; valid_o, ready_i likewise
+//   valid_i, ready_o   a plan is taken when both are 1, for its last stretch; valid_o, ready_i likewise
 //
 // Latency 2 clocks, one stretch a clock. Exact; steps wrap at 32 bits.
 // Example: main = 2, log2 = 4, degree 3; last_count = 9, last_log2 = 3, last_degree 1 -> 2 records of 16 pixels, step 4 g;
@@ -18,8 +19,9 @@ module shade_stretch (
   input  logic                rst_i,
   input  logic                valid_i,
   output logic                ready_o,
-  input  shade_pkg::job_t     job_i,
   input  shade_pkg::plan_t    plan_i,
+  input  shade_pkg::job_t     job_i,
+  output logic                job_taken_o,
   output logic                valid_o,
   input  logic                ready_i,
   output shade_pkg::stretch_t stretch_o
@@ -28,15 +30,15 @@ module shade_stretch (
   localparam int LOG2_W = shade_pkg::LOG2_W;
   localparam logic [COUNT_W-1:0] ONE = COUNT_W'(1);
 
-  // ---- which one it is, and how far its nodes are apart --------------------------------------------------------------
+  // ---- which one it is, and how far its nodes are apart; wide as it is, the span waits in its FIFO ---------------------
   logic main, main_done_q, move, take, chosen_valid_q;
   logic [LOG2_W-1:0] step_log2, step_log2_q;
   shade_pkg::stretch_t chosen, chosen_q;
   assign main = plan_i.split && !main_done_q;
-  assign chosen.normal  = job_i.normal;
-  assign chosen.step    = job_i.increment;
-  assign chosen.tag     = job_i.tag;
-  assign chosen.flat    = job_i.flat;
+  assign chosen.normal  = '0;
+  assign chosen.step    = '0;
+  assign chosen.tag     = '0;
+  assign chosen.flat    = 1'b0;
   assign chosen.degree  = main ? plan_i.degree : plan_i.last_degree;
   assign chosen.log2    = main ? plan_i.log2 : plan_i.last_log2;
   assign chosen.count   = main ? ONE << plan_i.log2 : plan_i.last_count;
@@ -53,9 +55,10 @@ module shade_stretch (
       default: step_log2 = '0;
     endcase
   end
-  assign move    = chosen_valid_q && (!valid_o || ready_i);
-  assign take    = valid_i && (!chosen_valid_q || move);
-  assign ready_o = !main && (!chosen_valid_q || move);
+  assign move        = chosen_valid_q && (!valid_o || ready_i);
+  assign take        = valid_i && (!chosen_valid_q || move);
+  assign ready_o     = !main && (!chosen_valid_q || move);
+  assign job_taken_o = move && !chosen_q.more;
 
   always_ff @(posedge clk_i) begin
     if (take) begin
@@ -65,9 +68,12 @@ module shade_stretch (
     end
     if (move) begin
       stretch_o        <= chosen_q;
-      stretch_o.step.x <= chosen_q.step.x << step_log2_q;
-      stretch_o.step.y <= chosen_q.step.y << step_log2_q;
-      stretch_o.step.z <= chosen_q.step.z << step_log2_q;
+      stretch_o.normal <= job_i.normal;
+      stretch_o.step.x <= job_i.increment.x << step_log2_q;
+      stretch_o.step.y <= job_i.increment.y << step_log2_q;
+      stretch_o.step.z <= job_i.increment.z << step_log2_q;
+      stretch_o.tag    <= job_i.tag;
+      stretch_o.flat   <= job_i.flat;
     end
 
     if (take) chosen_valid_q <= 1'b1;

@@ -32,7 +32,7 @@ INVC = {
 }
 DEGREES = {"refined": (2,), "paper": (2, 1)}
 AXES = ("x", "y", "z")
-NODE_PORTS = (*(f"arc_o.n{n}.{c}" for n in range(5) for c in AXES), "clamped_o")
+NODE_PORTS = (*(f"arc_o.n{n}.{c}" for n in range(5) for c in AXES), "arc_o.clamped")
 
 
 def _axes(port: str) -> tuple[str, ...]:
@@ -263,7 +263,7 @@ def _nodes(form: str) -> Iterator[Case]:
     """Midpoint and node chain; ideal: the same sums, scaled by the true functions of c."""
     for degree in DEGREES[form]:
         point = {"FORM": FORMS[form], "DEGREE": degree}
-        outputs = (*_axes("n_o"), "half_o", "clamped_o")
+        outputs = (*_axes("middle_o.normal"), "middle_o.half", "middle_o.clamped")
 
         def middle(i: Arrays, point=point, outputs=outputs) -> Arrays:
             values = normal.midpoint(*_ends(i), i["c_i"], point["FORM"], point["DEGREE"])

@@ -19,14 +19,14 @@ module formal_node_walk #(
 );
   localparam int N_W = CREDIT_LOG2 + 2;
   localparam logic [N_W-1:0] ALL = N_W'(1 << CREDIT_LOG2);
-  logic ready, valid, take, marked;
+  logic ready, valid, take, marked, job_taken, waits_q, waits_mark_q;
   shade_pkg::job_t job;
   shade_pkg::plan_t plan;
   shade_pkg::node_t node;
   shade_pkg::head_t head;
   shade_node_walk #(.CREDIT_LOG2(CREDIT_LOG2)) u_dut (
-    .clk_i, .rst_i, .phase_i(3'd0), .valid_i, .ready_o(ready), .job_i(job), .plan_i(plan), .credit_i, .valid_o(valid),
-    .node_o(node)
+    .clk_i, .rst_i, .phase_i(3'd0), .valid_i, .ready_o(ready), .plan_i(plan), .job_i(job), .job_taken_o(job_taken),
+    .credit_i, .valid_o(valid), .node_o(node)
   );
   assign take   = valid_i && ready;
   assign head   = node.place.head;
@@ -40,7 +40,7 @@ module formal_node_walk #(
   assign mark = held_q ? held_mark_q : mark_i && !token_q;
   always_comb begin
     job              = '0;
-    job.tag[0]       = mark;
+    job.tag[0]       = waits_q ? waits_mark_q : mark;  // of the oldest span that was not taken
     plan             = '0;
     plan.split       = main_i != '0;
     plan.main        = 13'(main_i);
@@ -71,6 +71,8 @@ module formal_node_walk #(
     held_q      <= valid_i && !ready;
     held_mark_q <= mark;
     held_plan_q <= plan;
+    waits_q     <= take || (waits_q && !job_taken);
+    if (take) waits_mark_q <= mark;
     if (valid_i && mark && !token_q) {token_q, plan_q} <= {1'b1, plan};
     if (marked) begin
       first_q <= node.place.last;
@@ -83,7 +85,7 @@ module formal_node_walk #(
     if (valid) open_q <= node.place.last;
     idle_q <= valid || !token_q || done_q || spent_q != '0 ? 4'd0 : idle_q + 4'd1;
     if (rst_i) begin
-      {held_q, token_q, done_q, record_q, slot_q, spent_q, idle_q} <= '0;
+      {held_q, waits_q, token_q, done_q, record_q, slot_q, spent_q, idle_q} <= '0;
       {first_q, open_q} <= 2'b11;
     end
   end

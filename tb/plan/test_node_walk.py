@@ -2,6 +2,7 @@
 """shade_node_walk: planned spans in, the normals at their nodes out, as golden.plan.node_walk has them; credits."""
 
 import random
+from collections import deque
 
 import cocotb
 import numpy as np
@@ -10,7 +11,7 @@ from polyshade.golden.plan import node_walk
 from polyshade.golden.poly import span_log2
 from polyshade.golden.types import JOB, NODE, PLAN, whole
 
-from tb.bench import Bench, Mismatch, Source, checked, no_path
+from tb.bench import Bench, Mismatch, Source, checked, no_path, scramble
 from tb.runner import points, simulate
 
 
@@ -19,8 +20,34 @@ def test_cocotb(point):
     simulate("shade_node_walk", point)
 
 
-PAYLOAD = ("job_i", "plan_i")
 PLANNED = ("main", "log2", "degree", "last_count", "last_log2", "last_degree")
+
+
+class Spans(Source):
+    """Sends plans, and offers the span of the oldest one until it is taken."""
+
+    def __init__(self, bench: Bench):
+        super().__init__(bench, "valid_i", "ready_o", ["plan_i"])
+        self.jobs: deque[int] = deque()
+        cocotb.start_soon(self._run())
+
+    async def send(self, words: list[tuple[int, int]], gap: float = 0.0) -> None:
+        """Jobs and plans."""
+        self.jobs.extend(job for job, _ in words)
+        await super().send([(plan,) for _, plan in words], gap)
+
+    async def _run(self) -> None:
+        dut = self.bench.dut
+        while True:
+            if self.jobs:
+                dut.job_i.value = self.jobs[0]
+            else:
+                scramble(dut.job_i)
+            await self.bench.tick()
+            if int(dut.rst_i.value):
+                self.jobs.clear()
+            elif int(dut.job_taken_o.value):
+                self.jobs.popleft()
 
 
 class Nodes:
@@ -54,11 +81,11 @@ class Nodes:
                 raise Mismatch(f"a record without a credit (clock {self.bench.clock})")
 
 
-def setup(bench: Bench, thrift: float = 0.0) -> tuple[Source, Nodes]:
+def setup(bench: Bench, thrift: float = 0.0) -> tuple[Spans, Nodes]:
     """Something that sends planned spans, and something that reads nodes."""
     if bench.parameter("FOLD") > 1:
         cocotb.start_soon(phases(bench))
-    return Source(bench, "valid_i", "ready_o", PAYLOAD), Nodes(bench, thrift)
+    return Spans(bench), Nodes(bench, thrift)
 
 
 async def phases(bench: Bench) -> None:
@@ -206,7 +233,7 @@ async def reset(bench: Bench) -> None:
 async def paths(bench: Bench) -> None:
     """No node follows an input within a clock; ready_o may follow plan_i, which stands behind a FIFO's register."""
     source, nodes = setup(bench, thrift=0.5)
-    cocotb.start_soon(no_path(bench, ["job_i", "credit_i"], ["ready_o", "valid_o", "node_o"]))
+    cocotb.start_soon(no_path(bench, ["job_i", "credit_i"], ["ready_o", "job_taken_o", "valid_o", "node_o"]))
     sent = spans(bench, 40)
     await source.send(words(sent), 0.3)
     await compare(bench, sent, nodes)

@@ -7,8 +7,8 @@ from polyshade.golden import contract as k
 from polyshade.golden.plan import stretch
 from polyshade.golden.types import STRETCH
 
-from tb.bench import PRESSURE, Bench, Sink, Source, checked
-from tb.plan.test_node_walk import PLANNED, spans, words
+from tb.bench import PRESSURE, Bench, Sink, checked
+from tb.plan.test_node_walk import PLANNED, Spans, spans, words
 from tb.runner import simulate
 
 MASK = (1 << k.STEP_W) - 1
@@ -18,11 +18,9 @@ def test_cocotb():
     simulate("shade_stretch", {})
 
 
-def setup(bench: Bench, stall: float = 0.0) -> tuple[Source, Sink]:
+def setup(bench: Bench, stall: float = 0.0) -> tuple[Spans, Sink]:
     """Something that sends planned spans, and something that takes stretches."""
-    return Source(bench, "valid_i", "ready_o", ["job_i", "plan_i"]), Sink(
-        bench, "valid_o", "ready_i", ["stretch_o"], stall
-    )
+    return Spans(bench), Sink(bench, "valid_o", "ready_i", ["stretch_o"], stall)
 
 
 async def compare(bench: Bench, sent: dict[str, np.ndarray], sink: Sink) -> None:

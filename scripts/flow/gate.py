@@ -6,8 +6,8 @@
 Every unit, at every parameter point of its cases, is synthesized for every family of ``FAMILIES`` as a user's flow does
 it, flattened, all the way to the family's cells. The cells become their simulation models and the result takes the
 place of the RTL: the unit's own vectors run through it and are compared with the golden model in every bit and in every
-latency; so do the streams of ``STREAMS``, among them a whole core. What synthesis gets wrong, and what the RTL leaves
-undefined, shows here.
+latency; so do the streams of ``STREAMS``, among them a whole core, which Icarus runs in four states as well. What
+synthesis gets wrong, and what the RTL leaves undefined, shows here.
 
 * Models of cells are those of Yosys; it has none of ECP5's multiplier and block RAM, which :func:`blocks_ecp5` writes.
 * Initial values that a family gives to registers are taken out: registers without reset start with random contents.
@@ -32,7 +32,7 @@ import numpy as np
 from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden.material import planner_registers, registers
-from polyshade.scripts.flow import tools
+from polyshade.scripts.flow import fourstate, tools
 from polyshade.scripts.flow.points import SMALL
 from polyshade.scripts.report import save
 from polyshade.sim import core
@@ -227,6 +227,7 @@ def _core(vectors: int, seed: int) -> Result:
 
 
 CORE = {"LANES": 1, "EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED, **SMALL}
+FOUR = "four states"
 SPAN = {"EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED}
 STREAMS: dict[str, tuple[str, Point, Callable[[int, int], Result]]] = {  # what it is: module, point, vectors and seed
     "spans of random registers": ("shade_core", CORE, _core),
@@ -237,6 +238,14 @@ STREAMS: dict[str, tuple[str, Point, Callable[[int, int], Result]]] = {  # what 
     ),
     "lines": ("shade_pixel_normals", {}, lambda n, s: check_pixel_normals(n // 10, s, 0.2, 0.2)),
 }
+
+
+def four_states(family: str) -> dict:
+    """One entry of the report: the core's netlist in Icarus, with unknown bits."""
+    folder = WORK / family / "four_states"
+    compared, wrong, first = fourstate.check(netlist(family, "shade_core", CORE), folder, CORE)
+    found = {"netlist": label("shade_core", CORE), "family": family, "test": FOUR, "vectors": compared}
+    return {**found, "mismatches": wrong, **({"first_mismatch": first} if wrong else {})}
 
 
 def stream(name: str, family: str, vectors: int = VECTORS, seed: int = 1) -> dict:
@@ -258,6 +267,7 @@ def main(names: list[str] | None = None) -> int:
             raise UserError(f"{name}: no such unit, allowed {', '.join(sorted(known))}")
     wanted = [index for index, case in enumerate(chosen) if not names or case.module in names]
     long = [name for name, (module, _, _) in STREAMS.items() if not names or module in names]
+    long += [FOUR] * ("shade_core" in (names or ["shade_core"]))
     jobs = [(job, family) for job in [*long, *wanted] for family in FAMILIES]  # the longest first
     report = []
     with ProcessPoolExecutor(int(os.environ.get("JOBS") or os.cpu_count())) as pool:
@@ -277,6 +287,8 @@ def main(names: list[str] | None = None) -> int:
 
 def _job(job: int | str, family: str) -> dict:
     """A case by its number, as functions do not travel between processes, or a stream by its name."""
+    if job == FOUR:
+        return four_states(family)
     return stream(job, family) if isinstance(job, str) else check(cases()[job], family)
 
 

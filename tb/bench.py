@@ -303,6 +303,61 @@ class Sink:
         self.clocks.clear()
 
 
+class Watch:
+    """Collects the words of outputs that only have a valid bit, and gives a credit back for each; as :class:`Sink`.
+
+    ``stall``: probability of a clock in which no credit is given back, though one is due. ``credits``: there are
+    so many; of a word without one Mismatch is raised. ``pays(word)``: it ends what a credit pays for. ``given``: the
+    clocks of credits.
+    """
+
+    def __init__(
+        self, bench: Bench, valid: str, payload: Sequence[str], credit: str = "", stall: float = 0.0, credits: int = 0,
+        pays: Callable[[tuple[int, ...]], bool] = lambda word: True,
+    ):  # fmt: skip
+        self.bench, self.stall, self.credits, self.pays = bench, stall, credits, pays
+        self.words: list[tuple[int, ...]] = []
+        self.clocks: list[int] = []
+        self.given: list[int] = []
+        self.spent = 0
+        self._valid, self._payload = getattr(bench.dut, valid), [getattr(bench.dut, name) for name in payload]
+        self._credit = getattr(bench.dut, credit) if credit else None
+        cocotb.start_soon(self._run())
+
+    async def _run(self) -> None:
+        begins = True  # the next word is the first that a credit pays for
+        while True:
+            give = self.spent > 0 and random.random() >= self.stall
+            if self._credit is not None:
+                self._credit.value = give
+            await self.bench.tick()
+            if give:
+                self.spent -= 1
+                self.given.append(self.bench.clock)
+            in_reset = int(self.bench.dut.rst_i.value)
+            if int(self._valid.value) and not in_reset:
+                word = tuple(int(port.value) for port in self._payload)
+                self.words.append(word)
+                self.clocks.append(self.bench.clock)
+                self.spent += begins
+                begins = self.pays(word)
+            if in_reset:
+                self.spent, begins = 0, True
+            if self._credit is not None and self.credits and self.spent > self.credits:
+                raise Mismatch(f"{self._valid._name}: a word without a credit (clock {self.bench.clock})")
+
+    forget = Sink.forget
+
+
+async def phases(bench: Bench) -> None:
+    """Count the phases, from 0 behind a reset."""
+    phase, fold = 0, bench.parameter("FOLD")
+    while True:
+        bench.dut.phase_i.value = phase
+        await bench.tick()
+        phase = 0 if int(bench.dut.rst_i.value) else (phase + 1) % fold
+
+
 async def no_path(bench: Bench, inputs: Sequence[str], outputs: Sequence[str]) -> None:
     """Change inputs in the middle of every clock and back again: no output may follow. Runs until the test ends."""
     into, out = ([getattr(bench.dut, name) for name in names] for names in (inputs, outputs))

@@ -7,9 +7,9 @@ One file a folder of ``rtl/``, of ``light`` two; ``case`` says what is measured 
 from polyshade.sim.units import fixed, light, normal, patch, plan, poly, reflectance, stream, surface
 from polyshade.sim.units.case import FORMS, Case, Result
 from polyshade.sim.units.normal import unit_vectors
-from polyshade.sim.units.stream import check_pixel_normals, check_poly_span
+from polyshade.sim.units.stream import Stream, streams
 
-__all__ = ["FORMS", "Case", "Result", "cases", "check_pixel_normals", "check_poly_span", "unit_vectors"]
+__all__ = ["FORMS", "Case", "Result", "Stream", "cases", "streams", "unit_vectors"]
 
 
 def cases() -> list[Case]:

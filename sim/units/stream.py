@@ -1,166 +1,573 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whole streams: the buffer, spans to pixels, lines to normals."""
+"""Modules that take items and give words, with valid and ready or credits: spans to pixels, walks, the FIFO.
+
+A :class:`Stream` says what such a module must do and when. Two engines run it: NumPy in bulk (:meth:`Stream.check`),
+and cocotb (``tb.stream_bench``) with pauses, resets, a taker that stands still, inputs that change within a clock.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from polyshade import sim
 from polyshade.golden import contract as k
-from polyshade.golden import normal, poly
-from polyshade.sim.units.case import FORMS, ONE, Case, Real, Result, hexadecimal, in_forms, mixed
+from polyshade.golden import core, normal, plan, poly
+from polyshade.golden.types import DRAWN, RECORD, pack, unpack, words
+from polyshade.sim.sources import label
+from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, Result, hexadecimal, mixed
 from polyshade.sim.units.normal import unit_vectors
 from polyshade.sim.units.poly import coefficient
+from polyshade.sim.units.spans import CODES, PATHS, Spans, draw_of, port, settings, spans, structure
+
+Rng = np.random.Generator
 
 
-def check_poly_span(
-    form: str, evaluator: int, spans: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0
-) -> Result:
-    """Whole spans through ``shade_poly_span``: random nodes, degrees, lengths up to 4096.
+class Given(NamedTuple):
+    """What is to come of items: outputs by port or field, a row a word; the item of every word; words beside them."""
 
-    Errors are measured against the exact polynomial through the quantized nodes, clamped. ``latency`` is that of the
-    first pixel, ``throughput`` in pixels a clock. Intensities reach over [-1, 1], so that clamping is exercised.
+    words: Arrays
+    owner: np.ndarray
+    beside: Arrays = {}  # noqa: RUF012
+
+
+@dataclass(frozen=True)
+class Stream:
+    """A module at a parameter point and what it must make of a stream of items.
+
+    ``items(rng, count, kind)``: inputs by port or field, a row an item of so many words, where that is for the items to
+    say; ``draw_i`` are settings, the same in all rows. ``kinds`` of items, ``usual``: those that most tests take.
+    ``golden(inputs)``: what is to come.
+
+    ``latency``: clocks from an item to its first word, or from each to its, up to ``slack`` more; its words follow each
+    other in ``stride`` clocks. ``steady``: that holds for every item, else only for one that finds nothing in front of
+    it, of the kinds ``alone``. ``pace(inputs, given)``: clocks that an item takes, by default ``stride`` a word;
+    ``brisk``: items follow each other so. ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
+    items of n words that are taken while the taker stands still.
+
+    Where words cost credits, there are ``credits`` after reset; one pays for all words up to one in which the field
+    ``record`` is 1; a word that waited for it comes ``wakes`` clocks behind it. ``valid``: of the words, by default
+    ``valid_o``; ``beside``: of the words beside them. ``through``: inputs from which a path leads to an output.
+
+    ``errors(inputs, given)``: of every word, against exact value and ideal, in ulp; 0 where there is none.
     """
-    rng = np.random.default_rng([seed, evaluator])
-    nodes = rng.integers(-ONE, ONE, (spans, k.CHANNELS, k.NODE_COUNT), endpoint=True)
-    nodes[::3] = rng.integers(0, ONE, nodes[::3].shape, endpoint=True)
-    degree = rng.integers(0, 3, spans, endpoint=True)
-    count = np.where(degree == k.DEGREE_DIRECT, rng.integers(1, 4, spans, endpoint=True), rng.geometric(0.08, spans))
-    degree[1], count[1] = k.DEGREE_CUBIC, k.PIXELS_MAX
-    degree[0], count[0] = k.DEGREE_LINEAR, 3  # its first pixel measures the latency
-    tag, more = rng.integers(0, 1 << k.TAG_W, spans), rng.integers(0, 2, spans)
 
-    beats = poly.pack_records(nodes, degree, count, tag, more)
-    model = sim.load("shade_poly_span", EVALUATOR=evaluator, FORM=FORMS[form])
-    run = model.run(s_axis_span_tdata=beats, in_gap=in_gap, out_stall=out_stall, seed=seed)
-    pixels, owner = poly.poly_span(nodes, degree, count, evaluator=evaluator, form=FORMS[form])
-    result = _stream_result(
-        run, "pixel", pixels[:, 0] | pixels[:, 1] << k.PIXEL_W, tag, owner,
-        k.LATENCY_POLY_SPAN_HORNER if evaluator == k.EVALUATOR_HORNER else k.LATENCY_POLY_SPAN_FDIFF, bool(out_stall),
-        more,
-    )  # fmt: skip
+    module: str
+    parameters: dict[str, int]
+    items: Callable[[Rng, np.ndarray, Hashable], Arrays]
+    golden: Callable[[Arrays], Given]
+    latency: int | Callable[[Arrays, Given], ArrayLike]
+    kinds: tuple = (None,)
+    usual: tuple = ()
+    alone: tuple = ()
+    slack: int = 0
+    stride: int = 1
+    steady: bool = True
+    brisk: bool = True
+    pace: Callable[[Arrays, Given], np.ndarray] | None = None
+    longest: int = 0
+    held: Callable[[Hashable, int], int] | None = None
+    credits: int = 0
+    record: str = ""
+    wakes: int = 0
+    valid: str = ""
+    beside: str = ""
+    through: tuple[str, ...] = ()
+    lengths: tuple[int, ...] = (1, 2, 3, 4, 5, 12)
+    errors: Callable[[Arrays, Given], tuple[np.ndarray, np.ndarray]] | None = field(default=None)
 
-    span, j = poly.span_walk(count)
-    for formula, name in ((form, "max_error_ulp"), ("refined", "max_error_ideal")):
-        error = np.abs(pixels - _exact_pixels(formula, nodes, degree, count, span, j))
-        at = np.unravel_index(np.argmax(error), error.shape)
-        if name == "max_error_ulp":
-            result.max_error_ulp = float(error[at])
-            result.worst_input = {"span": int(span[at[0]]), "pixel": int(j[at[0]]), "channel": int(at[1])}
-        else:
-            result.max_error_ideal = float(error[at]) / ONE
-    return result
+    def __str__(self) -> str:
+        return label(self.module, self.parameters)
 
+    def clock(self, inputs: Arrays, given: Given) -> np.ndarray:
+        """Clocks from an item to each of its words."""
+        first = self.latency(inputs, given) if callable(self.latency) else self.latency
+        first = np.broadcast_to(first, given.owner[-1] + 1)[given.owner]
+        return first + self.stride * (np.arange(len(given.owner)) - np.searchsorted(given.owner, given.owner))
 
-def _exact_pixels(form: str, nodes, degree, count, span, j) -> np.ndarray:
-    """(P, 2) the exact polynomial through the nodes at every pixel, clamped to what a pixel holds, in ulp."""
-    inputs = {"degree_i": degree[:, None]} | {f"i{n + 1}_i": nodes[..., n] for n in range(k.NODE_COUNT)}
-    a, b, c, d = (coefficient(name, k.NODES_LEFT, form)(inputs)[span] for name in "abcd")
-    t = np.ldexp(j.astype(Real), -poly.span_log2(count)[span])[:, None]
-    direct = np.flatnonzero(degree[span] == k.DEGREE_DIRECT)
-    value = ((a * t + b) * t + c) * t + d
-    value[direct] = nodes[span[direct], :, j[direct]]
-    return value.clip(0, (1 << k.PIXEL_W) - 1)
+    def clocks(self, inputs: Arrays, given: Given) -> int:
+        """From the first word of all items to the last, both counted, when nobody pauses."""
+        items = np.bincount(given.owner)
+        pace = self.stride * items if self.pace is None else self.pace(inputs, given)
+        return int(pace[:-1].sum() + self.stride * (items[-1] - 1) + 1)
 
+    def mixture(self, rng: Rng, rows: int) -> np.ndarray:
+        """Lengths of items, half of them of 1 to 4 words."""
+        most = max(self.longest, 4)
+        return np.where(rng.random(rows) < 0.5, rng.integers(1, 5, rows), rng.geometric(0.08, rows).clip(1, most))
 
-def check_pixel_normals(
-    lines: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, variants: Sequence[int] = range(8)
-) -> Result:
-    """Whole lines of normals through ``shade_pixel_normals``: random ends, lengths, variants, thresholds.
-
-    ``max_error_ulp`` and ``max_error_ideal`` of the pixels that are normalized exactly, against the unit vector of the
-    interpolated normal; ``latency`` of the first normal, ``throughput`` in normals a clock.
-    """
-    rng = np.random.default_rng([seed, 7])
-    count = rng.geometric(0.1, lines)
-    count[1] = k.PIXELS_MAX
-    count[0] = 3  # its first normal measures the latency
-    first, other = (unit_vectors(rng, lines).T / ONE for _ in range(2))
-    bend = np.ldexp(1.0, -rng.integers(0, 10, (lines, 1)))
-    last = first + (other - first) * bend
-    last /= np.linalg.norm(last, axis=1, keepdims=True)
-    scale = 1 << k.STEP_F
-    normals = np.rint(first * scale).astype(np.int64)
-    steps = np.rint((last - first) / np.maximum(count - 1, 1)[:, None] * scale).astype(np.int64)
-    cosine = np.rint(np.sum(first * last, axis=1) * ONE).astype(np.int64)
-    variant = rng.choice(variants, lines)
-    threshold = np.where(rng.random(lines) < 0.9, k.METRIC_THRESHOLD, rng.integers(-ONE // 8, ONE + ONE // 8, lines))
-    tag = rng.integers(0, 1 << k.TAG_W, lines)
-
-    model = sim.load("shade_pixel_normals")
-    run = model.run(
-        s_axis_line_tdata=normal.pack_spans(normals, steps, count, cosine, tag), variant_i=variant,
-        threshold_i=threshold, in_gap=in_gap, out_stall=out_stall, seed=seed,
-    )  # fmt: skip
-    golden, owner = normal.pixel_normals(normals, steps, count, cosine, variant, threshold)
-    mask = (1 << k.INTENSITY_W) - 1
-    data = sum((golden[:, i] & mask) << k.INTENSITY_W * i for i in range(3))
-    result = _stream_result(run, "normal", data, tag, owner, k.LATENCY_PIXEL_NORMALS, bool(out_stall))
-
-    j = np.arange(len(owner)) - np.searchsorted(owner, owner)
-    exact = (j % 2 == 0) | (j == count[owner] - 1) | (variant[owner] == k.VARIANT_EXACT)
-    ideal = (normals[owner] + j[:, None] * steps[owner])[exact].astype(Real)
-    quantized = np.floor(ideal / (1 << k.STEP_F - k.INTENSITY_F) + Real(0.5))
-
-    def error(vector: np.ndarray) -> np.ndarray:
-        return np.abs(golden[exact] - vector * ONE / np.sqrt((vector**2).sum(axis=1, keepdims=True)))
-
-    distance = error(quantized)
-    at = np.unravel_index(np.argmax(distance), distance.shape)
-    result.max_error_ulp, result.max_error_ideal = float(distance[at]), float(error(ideal).max()) / ONE
-    result.worst_input = {"line": int(owner[exact][at[0]]), "pixel": int(j[exact][at[0]])}
-    return result
+    def check(self, rows: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, kind=None) -> Result:
+        """So many items through the RTL. ``latency`` is that of the first word, ``throughput`` in words a clock."""
+        rng = np.random.default_rng([seed, 7])
+        count = self.mixture(rng, rows)
+        count[:2] = 3, max(self.longest, 3)  # the first word measures the latency
+        inputs = self.items(rng, count, kind if kind is not None else self.kinds[0])
+        given = self.golden(inputs)
+        model = sim.load(self.module, public=(), **self.parameters)
+        run = model.run(
+            **inputs, in_gap=in_gap, out_stall=out_stall, seed=seed, pace=self.parameters.get("FOLD", 1)
+        )  # fmt: skip
+        total = len(given.owner)
+        result = Result(total, latency=int(run.given[0] - run.taken[0]), throughput=total / run.clocks)
+        if len(run.given) != total:
+            result.mismatches = abs(len(run.given) - total)
+            result.first_mismatch = f"{self}: {len(run.given)} words, expected {total}"
+            return result
+        wrong = {name: run.outputs[name] != value for name, value in given.words.items()}
+        if self.steady and not out_stall:
+            wrong["its clock"] = run.given - run.taken[given.owner] != self.clock(inputs, given)
+        any_wrong = np.any(list(wrong.values()), axis=0)
+        result.mismatches = int(np.count_nonzero(any_wrong))
+        if result.mismatches:
+            at = int(np.argmax(any_wrong))
+            told = ", ".join(
+                f"{name} expected {hexadecimal(value[at])} actual {hexadecimal(run.outputs[name][at])}"
+                for name, value in given.words.items() if wrong[name][at]
+            ) or f"latency {run.given[at] - run.taken[given.owner[at]]}"  # fmt: skip
+            result.first_mismatch = f"{self}: word {at}, of item {given.owner[at]}: {told}"
+        if self.errors:
+            exact, ideal = self.errors(inputs, given)
+            at = int(np.argmax(exact))
+            result.max_error_ulp, result.max_error_ideal = float(exact[at]), float(ideal.max()) / ONE
+            result.worst_input = {
+                "item": int(given.owner[at]),
+                "word": at - int(np.searchsorted(given.owner, given.owner[at])),
+            }
+        return result
 
 
-def _stream_result(run: sim.Run, word: str, data, tag, owner, declared: int, stalled: bool, more=None) -> Result:
-    """Compare the words of a stream ``m_axis_<word>``, its tags, its ends and the first one's latency.
-
-    ``more``: 1 for the items whose last word is no end.
-    """
-    unit = f"m_axis_{word}"
-    last = np.r_[owner[1:] != owner[:-1], True].astype(np.int64)
-    if more is not None:
-        last &= 1 - more[owner]
-    expected = {f"{unit}_tdata": data, f"{unit}_tuser": tag[owner], f"{unit}_tlast": last}
-    result = Result(vectors=len(data), latency=int(run.given[0] - run.taken[0]), throughput=len(data) / run.clocks)
-    unequal = [name for name, value in expected.items() if not np.array_equal(value, run.outputs[name])]
-    if len(run.given) != len(data):
-        result.mismatches = abs(len(run.given) - len(data))
-        result.first_mismatch = f"{unit}: {len(run.given)} words, expected {len(data)}"
-    elif unequal:
-        wrong = np.any([expected[name] != run.outputs[name] for name in unequal], axis=0)
-        at = int(np.argmax(wrong))
-        result.mismatches = int(np.count_nonzero(wrong))
-        result.first_mismatch = f"{unit}: word {at}, of item {owner[at]}: " + ", ".join(
-            f"{name} expected {hexadecimal(expected[name][at])} actual {hexadecimal(run.outputs[name][at])}"
-            for name in unequal
-        )
-    elif not stalled and result.latency != declared:
-        result.mismatches, result.first_mismatch = 1, f"{unit}: latency {result.latency}, declared {declared}"
-    return result
+def ends(owner: np.ndarray, more: np.ndarray | None = None) -> np.ndarray:
+    """1 where an item's last word is, unless it goes on in the next item."""
+    last = np.append(np.diff(owner), 1)[: len(owner)] != 0
+    return (last if more is None else last & (more[owner] == 0)).astype(np.int64)
 
 
-def _fifo(form: str) -> Iterator[Case]:
-    if form != "refined":
-        return
-    same = lambda i: {"data_o": i["data_i"]}  # noqa: E731
-    yield Case(
-        "shade_fifo",
-        form,
-        {},
-        same,
-        same,
-        same,
-        mixed({"data_i": (0, (1 << 32) - 1)}),
-        None,
-        k.LATENCY_FIFO,
-        bound=0,
-        unit_f=0,
-        ordered=True,  # a consumer that stalls: tb/stream/test_fifo.py
+def axis(name: str, values: list[np.ndarray], width: int, tag: np.ndarray, last: np.ndarray) -> Arrays:
+    """A stream ``m_axis_<name>`` of numbers side by side."""
+    data = sum((part & (1 << width) - 1) << width * i for i, part in enumerate(values))
+    return {f"m_axis_{name}_tdata": data, f"m_axis_{name}_tuser": tag, f"m_axis_{name}_tlast": last}
+
+
+# ---- records to pixels ---------------------------------------------------------------------------------------------
+
+
+def records(rng: Rng, count: np.ndarray, _kind: Hashable) -> Arrays:
+    """The fields of records: any degree, nodes in [0, 1] or of any bits; a third of them go on in the next one."""
+    rows = len(count)
+    degree = np.where(count <= k.DIRECT_MAX, rng.integers(0, 4, rows), rng.integers(1, 4, rows))
+    shape = (rows, k.CHANNELS, k.NODE_COUNT)
+    free = rng.integers(-(1 << k.INTENSITY_W - 1), 1 << k.INTENSITY_W - 1, shape)
+    corner = rng.choice([free.min(), free.max(), -1, 0, 1, ONE, -ONE], shape)
+    free = np.where(rng.random(shape) < 0.25, corner, free)
+    kind = rng.integers(0, 3, (rows, 1, 1))
+    nodes = np.select([kind == 0, kind == 1], [free, rng.integers(-ONE, ONE, shape)], rng.integers(0, ONE + 1, shape))
+    beats = poly.pack_records(nodes, degree, count, rng.integers(0, 1 << k.TAG_W, rows), rng.random(rows) < 1 / 3)
+    return unpack(RECORD, beats)
+
+
+def _noise(rng: Rng, record: Arrays) -> np.ndarray:
+    """Records as beats; bits without a meaning are random."""
+    leaves = list(RECORD.leaves())
+    used = words(leaves, [np.int64(-1)] * len(leaves), k.RECORD_DATA_W)
+    beats = pack(RECORD, record)
+    spare = ~used
+    spare[-1] &= np.uint32((1 << (k.RECORD_DATA_W - 1) % 32 + 1) - 1)
+    return beats | rng.integers(0, 1 << 32, beats.shape, dtype=np.uint32) & spare
+
+
+def _nodes(record: Arrays) -> np.ndarray:
+    """(S, 2, 4)."""
+    return np.stack([[record[f"{c}.n{n}"] for n in range(k.NODE_COUNT)] for c in ("diffuse", "specular")]).transpose(
+        2, 0, 1
     )
 
 
+def _poly_span(evaluator: int, form: str, node_set: int = k.NODES_LEFT, **more: int) -> Stream:
+    def golden(i: Arrays) -> Given:
+        record = unpack(RECORD, i["s_axis_span_tdata"])
+        pixels, owner = poly.poly_span(
+            _nodes(record), record["head.degree"], record["head.count"], evaluator=evaluator, node_set=node_set,
+            form=FORMS[form],
+        )  # fmt: skip
+        last = ends(owner, record["head.more"])
+        return Given(axis("pixel", list(pixels.T), k.PIXEL_W, record["head.tag"][owner], last), owner)
+
+    def errors(i: Arrays, given: Given) -> tuple[np.ndarray, np.ndarray]:
+        """Against the exact polynomial through the nodes, clamped to what a pixel holds, in this form and refined."""
+        record, owner = unpack(RECORD, i["s_axis_span_tdata"]), given.owner
+        degree, count, nodes = record["head.degree"], record["head.count"], _nodes(record)
+        j = np.arange(len(owner)) - np.searchsorted(owner, owner)
+        t = np.ldexp(j.astype(Real), -poly.span_log2(count)[owner])[:, None]
+        direct = np.flatnonzero(degree[owner] == k.DEGREE_DIRECT)
+        pixels = given.words["m_axis_pixel_tdata"][:, None] >> np.array([0, k.PIXEL_W]) & (1 << k.PIXEL_W) - 1
+        named = {"degree_i": degree[:, None]} | {f"i{n + 1}_i": nodes[..., n] for n in range(k.NODE_COUNT)}
+
+        def error(formula: str) -> np.ndarray:
+            a, b, c, d = (coefficient(name, node_set, formula)(named)[owner] for name in "abcd")
+            value = ((a * t + b) * t + c) * t + d
+            value[direct] = nodes[owner[direct], :, j[direct]]
+            return np.abs(pixels - value.clip(0, (1 << k.PIXEL_W) - 1)).max(axis=1)
+
+        return error(form), error("refined")
+
+    horner = evaluator == k.EVALUATOR_HORNER
+    longest = 1 << more.get("LOG2_MAX", k.LOG2_MAX)
+    return Stream(
+        "shade_poly_span", {"EVALUATOR": evaluator, "FORM": FORMS[form], "NODES": node_set} | more,
+        lambda rng, count, kind: {"s_axis_span_tdata": _noise(rng, records(rng, count, kind))}, golden,
+        k.LATENCY_POLY_SPAN_HORNER if horner else k.LATENCY_POLY_SPAN_FDIFF, longest=longest, errors=errors,
+        held=lambda _, n: (1 << k.FIFO_LOG2) // n + 1,
+    )  # fmt: skip
+
+
+def _span_walk(**parameters: int) -> Stream:
+    def golden(i: Arrays) -> Given:
+        record = structure(i, "record_i")
+        owner, j = poly.span_walk(record["head.count"])
+        direct = record["head.degree"][owner] == k.DEGREE_DIRECT
+        log2 = poly.span_log2(record["head.count"])[owner]
+        nodes, at = _nodes(record), np.arange(k.NODE_COUNT) + np.where(direct, j, 0)[:, None]
+        shown = np.where(at < k.NODE_COUNT, np.take_along_axis(nodes[owner], at.clip(max=3)[:, None], -1).T, 0)
+        words = {f"{c}.n{n}": shown[n, i] for i, c in enumerate(("diffuse", "specular")) for n in range(k.NODE_COUNT)}
+        words |= {
+            "first": (j == 0) | direct, "last": ends(owner, record["head.more"]), "log2": log2,
+            "degree": record["head.degree"][owner], "t": j << k.T_F - log2, "tag": record["head.tag"][owner],
+        }  # fmt: skip
+        return Given({f"token_o.{name}": v.astype(np.int64) for name, v in words.items()}, owner)
+
+    return Stream(
+        "shade_span_walk", parameters,
+        lambda *of: {f"record_i.{name}": v for name, v in records(*of).items()}, golden, 2, wakes=2,
+        longest=1 << parameters.get("LOG2_MAX", k.LOG2_MAX), credits=1 << parameters.get("CREDIT_LOG2", k.FIFO_LOG2),
+    )  # fmt: skip
+
+
+def _walk(**parameters: int) -> Stream:
+    def golden(i: Arrays) -> Given:
+        owner = np.repeat(np.arange(len(i["count_i"])), i["count_i"])
+        first = np.append(1, np.diff(owner)) != 0
+        return Given({"first_o": first.astype(np.int64), "last_o": ends(owner)}, owner)
+
+    room = parameters.get("CREDIT_LOG2", k.FIFO_LOG2)
+    enough = room > 1  # a credit needs two clocks to come back
+    return Stream(
+        "shade_walk", parameters, lambda rng, count, kind: {"count_i": count}, golden, 1, valid="issue_o",
+        longest=(1 << parameters.get("COUNT_W", k.COUNT_W)) - 1, credits=1 << room, steady=enough, brisk=enough,
+        wakes=1, through=("valid_i",),
+    )  # fmt: skip
+
+
+# ---- spans to normals ----------------------------------------------------------------------------------------------
+
+
+def lines(rng: Rng, count: np.ndarray) -> Spans:
+    """Lines between unit normals, bent by any angle."""
+    rows = len(count)
+    first, other = (unit_vectors(rng, rows).T / ONE for _ in range(2))
+    last = first + (other - first) * np.ldexp(1.0, -rng.integers(0, 10, (rows, 1)))
+    last /= np.linalg.norm(last, axis=1, keepdims=True)
+    step = (last - first) / np.maximum(count - 1, 1)[:, None]
+    vectors = (np.rint(v * (1 << k.STEP_F)).astype(np.int64) for v in (first, step))
+    cosine = np.rint(np.sum(first * last, axis=1) * ONE).astype(np.int64)
+    return Spans(*vectors, count, rng.integers(0, 1 << k.TAG_W, rows), cosine, np.zeros(rows, np.int64))
+
+
+def pixel_normals(variants=range(8)) -> Stream:
+    """``shade_pixel_normals``: variants and thresholds of all kinds, next to 0 and 1 too."""
+
+    def items(rng: Rng, count: np.ndarray, _kind: Hashable) -> Arrays:
+        rows = len(count)
+        any_threshold = np.where(
+            rng.random(rows) < 0.5,
+            rng.integers(-ONE // 8, ONE + ONE // 8, rows),
+            rng.choice([-1, 0, ONE, ONE + 1], rows),
+        )
+        threshold = np.where(rng.random(rows) < 0.8, k.METRIC_THRESHOLD, any_threshold)
+        beats = {"s_axis_line_tdata": lines(rng, count).beats()}
+        return beats | {"variant_i": rng.choice(variants, rows), "threshold_i": threshold}
+
+    def golden(i: Arrays) -> Given:
+        s = Spans.of(i, "s_axis_line_tdata")
+        vectors, owner = normal.pixel_normals(s.normal, s.step, s.count, s.cosine, i["variant_i"], i["threshold_i"])
+        return Given(axis("normal", list(vectors.T), k.INTENSITY_W, s.tag[owner], ends(owner)), owner)
+
+    def errors(i: Arrays, given: Given) -> tuple[np.ndarray, np.ndarray]:
+        """Of the pixels that are normalized exactly, against the unit vector of the interpolated normal."""
+        s, owner = Spans.of(i, "s_axis_line_tdata"), given.owner
+        j = np.arange(len(owner)) - np.searchsorted(owner, owner)
+        exact = (j % 2 == 0) | (j == s.count[owner] - 1) | (i["variant_i"][owner] == k.VARIANT_EXACT)
+        true = (s.normal[owner] + j[:, None] * s.step[owner]).astype(Real)
+        data = given.words["m_axis_normal_tdata"][:, None] >> k.INTENSITY_W * np.arange(3)
+        vectors = (data & (1 << k.INTENSITY_W) - 1) - ((data >> k.INTENSITY_W - 1 & 1) << k.INTENSITY_W)
+
+        def error(v: np.ndarray) -> np.ndarray:
+            unit = v * ONE / np.sqrt((v**2).sum(axis=1, keepdims=True))
+            return np.where(exact, np.abs(vectors - unit).max(axis=1), 0)
+
+        return error(np.floor(true / (1 << k.STEP_F - k.INTENSITY_F) + Real(0.5))), error(true)
+
+    return Stream(
+        "shade_pixel_normals", {}, items, golden, k.LATENCY_PIXEL_NORMALS, longest=k.PIXELS_MAX, errors=errors,
+        held=lambda _, n: (1 << k.NORMAL_FIFO_LOG2) // n + 1,
+    )  # fmt: skip
+
+
+def _pixel_points() -> Stream:
+    def items(rng: Rng, count: np.ndarray, variant: Hashable) -> Arrays:
+        return spans(rng, count).leaves("span_i") | port({"variant": variant, "threshold": k.METRIC_THRESHOLD})
+
+    def golden(i: Arrays) -> Given:
+        s, draw = Spans.of(i, "span_i"), draw_of(i)
+        n, owner = normal.pixel_normals(s.normal, s.step, s.count, s.cosine, draw["variant"], draw["threshold"])
+        words = {f"normal_o.{name}": n[:, i] for i, name in enumerate("xyz")}
+        zero, one = np.zeros_like(owner), np.ones_like(owner)
+        place = {"slot": zero, "shared": zero, "last": one, "head.count": one, "head.degree": zero, "head.log2": zero}
+        place |= {"head.more": 1 - ends(owner), "head.tag": s.tag[owner]}
+        return Given(words | {f"place_o.{name}": v for name, v in place.items()}, owner)
+
+    return Stream(
+        "shade_pixel_points", {}, items, golden, k.LATENCY_PIXEL_NORMALS, kinds=tuple(range(8)), longest=k.PIXELS_MAX,
+        credits=1 << k.RECORD_FIFO_LOG2, steady=False, brisk=False,
+    )  # fmt: skip
+
+
+# ---- spans to nodes --------------------------------------------------------------------------------------------------
+
+PLANNED = ("main", "log2", "degree", "last_count", "last_log2", "last_degree")
+LIMITS = "normals at the ends of S2.29 and around the last one that is not saturated"
+
+
+def planned(rng: Rng, count: np.ndarray, kind: Hashable) -> Arrays:
+    """Planned spans of all kinds: of one record or several, of any degree; normals with any 32 bits."""
+    rows = len(count)
+    log2, degree = rng.integers(2, 5, rows), rng.integers(0, 4, rows)
+    log2[degree == k.DEGREE_DIRECT] = 2
+    main = np.where(rng.random(rows) < 0.5, 0, rng.integers(0, 8, rows))
+    direct = (main > 0) & (degree == k.DEGREE_DIRECT)  # then all of a span's records are
+    last_degree = np.where(direct, k.DEGREE_DIRECT, rng.integers(0, 4, rows))
+    first = (main > 0) & (degree != k.DEGREE_DIRECT)  # the last record shares its first node
+    low = np.select([last_degree == k.DEGREE_DIRECT, last_degree == k.DEGREE_CUBIC], [1 + first, 5], last_degree + 2)
+    last_count = rng.integers(
+        low, np.where(last_degree == k.DEGREE_DIRECT, 4, np.maximum(low, (1 << log2) + 1)), endpoint=True
+    )
+    n = rng.integers(-(1 << 31), 1 << 31, (rows, 3))
+    if kind == LIMITS:
+        main, last_degree, last_count = 0 * main, 0 * main, 0 * main + 1
+        most, half = 1 << k.STEP_W - 1, 1 << k.STEP_F - k.NODE_F - 1
+        edges = [most - 1, most - half, most - half - 1, most - 2 * half, -most, half - most, half - most - 1, 0]
+        n = rng.choice(edges, (rows, 3))
+    g = rng.integers(-(1 << 31), 1 << 31, (rows, 3)) >> rng.integers(0, 31, (rows, 1))
+    job = {f"{name}.{a}": v[:, i] for name, v in (("normal", n), ("increment", g)) for i, a in enumerate("xyz")}
+    job |= {"flat": rng.integers(0, 2, rows), "tag": rng.integers(0, 1 << k.TAG_W, rows)}
+    values = (main, log2, degree, last_count, poly.span_log2(last_count), last_degree)
+    cut = dict(zip(PLANNED, values, strict=True)) | {"split": (main != 0).astype(np.int64)}
+    return {f"job_i.{name}": v for name, v in job.items()} | {f"plan_i.{name}": v for name, v in cut.items()}
+
+
+def _vectors(part: Arrays, *names: str) -> Iterator[np.ndarray]:
+    return (np.stack([part[f"{name}.{a}"] for a in "xyz"], -1) for name in names)
+
+
+def _stretch() -> Stream:
+    def golden(i: Arrays) -> Given:
+        job, cut = structure(i, "job_i"), structure(i, "plan_i")
+        words = plan.stretch(*(cut[name] for name in PLANNED))
+        owner, shift = words.pop("span"), words.pop("step_log2")
+        n, g = _vectors(job, "normal", "increment")
+        step = plan.wrap(g[owner] << shift[:, None], k.STEP_W)
+        words |= {
+            f"{name}.{a}": v[:, i] for name, v in (("normal", n[owner]), ("step", step)) for i, a in enumerate("xyz")
+        }
+        fresh = np.append(1, np.diff(owner)) != 0
+        words |= {"tag": job["tag"][owner], "flat": job["flat"][owner], "fresh": fresh, "more": 1 - ends(owner)}
+        words |= {"single": words["records"] == 1}
+        return Given({f"stretch_o.{name}": v.astype(np.int64) for name, v in words.items()}, owner)
+
+    return Stream(
+        "shade_stretch", {}, planned, golden, lambda i, given: 3 - np.bincount(given.owner),  # taken with its last word
+        through=("plan_i", "ready_i"),
+    )  # fmt: skip
+
+
+def _places(nodes: plan.Nodes, tag: np.ndarray) -> Arrays:
+    """Where nodes stand in their records, by the fields of ``place_t``."""
+    head = {name: getattr(nodes, name)[nodes.record] for name in ("count", "more", "degree", "log2")}
+    place = {f"head.{name}": v for name, v in head.items()} | {"head.tag": tag[nodes.span[nodes.record]]}
+    return place | {"slot": nodes.slot, "shared": nodes.shared, "last": ends(nodes.record)}
+
+
+def _node_walk(**parameters: int) -> Stream:
+    def golden(i: Arrays) -> Given:
+        job, cut = structure(i, "job_i"), structure(i, "plan_i")
+        nodes = plan.node_walk(*_vectors(job, "normal", "increment"), *(cut[name] for name in PLANNED))
+        owner = nodes.span[nodes.record]
+        words = {f"place.{name}": v for name, v in _places(nodes, job["tag"]).items()} | {"flat": job["flat"][owner]}
+        words |= {f"normal.{a}": nodes.vector[:, i] for i, a in enumerate("xyz")}
+        return Given({f"node_o.{name}": v for name, v in words.items()}, owner)
+
+    fold, room = parameters.get("FOLD", 1), parameters.get("CREDIT_LOG2", k.RECORD_FIFO_LOG2)
+    return Stream(
+        "shade_node_walk", parameters, planned, golden, k.LATENCY_NODE_WALK, kinds=(None, LIMITS), stride=fold,
+        slack=fold - 1, steady=False, brisk=room > 2, credits=1 << room, record="node_o.place.last",
+        through=("valid_i", "plan_i"),
+    )  # fmt: skip
+
+
+def _line(**parameters: int) -> Stream:
+    def items(rng: Rng, count: np.ndarray, kind: tuple[int, int]) -> Arrays:
+        code, degree = kind
+        return spans(rng, count).leaves("span_i") | port(settings(rng, code) | {"fixed_degree": degree})
+
+    def golden(i: Arrays) -> Given:
+        s = Spans.of(i, "span_i")
+        nodes, n, zero, short = plan.line(s.normal, s.step, s.count, draw_of(i), s.flat)
+        words = {f"normal_o.{a}": n[:, i] for i, a in enumerate("xyz")} | {"zero_o": zero, "short_o": short}
+        return Given(
+            words, nodes.span[nodes.record], {f"place_o.{name}": v for name, v in _places(nodes, s.tag).items()}
+        )
+
+    fold = parameters.get("FOLD", 1)
+    return Stream(
+        "shade_line", parameters, items, golden, k.LATENCY_LINE if fold == 1 else k.LATENCY_LINE_FOLDED, steady=False,
+        kinds=((k.MODEL_BLINN, 0), (k.MODEL_LAMBERT, 0), (k.MODEL_BLINN, 3)), usual=((k.MODEL_BLINN, 3),), stride=fold,
+        slack=fold - 1, credits=1 << k.RECORD_FIFO_LOG2, record="place_o.last", beside="place_valid_o",
+        longest=k.PIXELS_MAX, lengths=(5, 9, 33), through=("phase_i",),
+    )  # fmt: skip
+
+
+# ---- spans to light --------------------------------------------------------------------------------------------------
+
+
+def _phong(form: str, **more: int) -> Stream:
+    def items(rng: Rng, count: np.ndarray, code: int) -> Arrays:
+        return {"s_axis_span_tdata": spans(rng, count).beats()} | port(settings(rng, code))
+
+    built = {name.lower(): value for name, value in more.items()}
+
+    def golden(i: Arrays) -> Given:
+        s = Spans.of(i, "s_axis_span_tdata")
+        pixels, owner = core.phong(s.normal, s.step, s.count, draw_of(i), form=FORMS[form], **built)
+        return Given(axis("pixel", list(pixels.T), k.PIXEL_W, s.tag[owner], ends(owner)), owner)
+
+    return Stream(
+        "shade_phong", {"FORM": FORMS[form]} | more, items, golden,
+        k.LATENCY_PHONG - (not more.get("REFLECT", 1)) * k.LATENCY_REFLECT, kinds=tuple(CODES), usual=(k.MODEL_BLINN,),
+        longest=k.PIXELS_MAX, held=lambda _, n: (1 << k.PHONG_FIFO_LOG2) // n + 1,
+    )  # fmt: skip
+
+
+def _lane(form: str = "refined", **more: int) -> Stream:
+    """Kinds: path, model, degree (0: adaptive, None: any). With two multipliers fewer paths and models are left."""
+    fold, by_normals = more.get("FOLD", 1), more.get("PATH_NORMALS", 1) == 1
+    horner = more.get("EVALUATOR", k.EVALUATOR_FDIFF) == k.EVALUATOR_HORNER
+    built = {name.lower(): value for name, value in more.items() if name != "FOLD"}
+
+    def items(rng: Rng, count: np.ndarray, kind: tuple) -> Arrays:
+        path, code, degree = kind
+        degree = int(rng.choice([0, 0, 1, 2, 3])) if degree is None else degree
+        s = spans(rng, count)
+        s.flat &= kind[2] is None
+        return s.leaves("span_i") | port(settings(rng, code) | {"path": path, "variant": code, "fixed_degree": degree})
+
+    def golden(i: Arrays) -> Given:
+        s = Spans.of(i, "span_i")
+        drawn = core.lane(
+            s.normal, s.step, s.count, draw_of(i), flat=s.flat, cosine=s.cosine, form=FORMS[form], **built
+        )
+        words = {f"drawn_o.pixel.{name}": drawn.pixels[:, i] for i, name in enumerate(("diffuse", "specular"))}
+        words |= {"drawn_o.tag": s.tag[drawn.span], "drawn_o.last": ends(drawn.span)}
+        return Given(words, drawn.span, {"flags_o": drawn.flags})
+
+    def normals(path: int) -> bool:
+        return path == k.PATH_NORMALS and by_normals
+
+    def nodes(i: Arrays) -> np.ndarray:
+        """Of each span, in which light is computed: of one record."""
+        draw, count = draw_of(i), i["span_i.count"]
+        return np.where(count <= k.DIRECT_MAX, count, draw["fixed_degree"] + 1)
+
+    def latency(i: Arrays, _given: Given) -> ArrayLike:
+        path = draw_of(i)["path"]
+        clocks = k.LATENCY_LANE_FOLDED if fold > 1 else k.LATENCY_LANE_NORMALS if normals(path) else k.LATENCY_LANE
+        clocks += (k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_SPAN_FDIFF) * horner
+        clocks -= (not more.get("REFLECT", 1) and fold == 1) * k.LATENCY_REFLECT
+        return clocks if normals(path) else clocks + fold * (nodes(i) - 1)
+
+    def pace(i: Arrays, given: Given) -> np.ndarray:
+        return i["span_i.count"] if normals(draw_of(i)["path"]) else np.maximum(i["span_i.count"], fold * nodes(i))
+
+    def held(kind: tuple, n: int) -> int:
+        """Pixels and records begun, with a credit; before them normals, or spans in the walk and in front of it."""
+        pixels, kept = 1 << k.FIFO_LOG2, 1 << k.RECORD_FIFO_LOG2
+        if normals(kind[0]):
+            return (pixels + 1 + kept + (1 << k.NORMAL_FIFO_LOG2)) // n + 1
+        return pixels // n + 1 + kept + 3 + (1 << k.SPAN_FIFO_LOG2)
+
+    return Stream(
+        "shade_lane", more if form == "refined" else {"FORM": FORMS[form]} | more, items, golden, latency,
+        kinds=tuple((path, code, None) for code in CODES for path in PATHS),
+        usual=tuple((path, k.MODEL_BLINN, k.DEGREE_CUBIC) for path in PATHS),
+        alone=tuple((path, k.MODEL_BLINN, degree) for path in PATHS for degree in (1, 2, 3)), steady=False, pace=pace,
+        longest=k.PIXELS_MAX, held=held, beside="lit_o", through=("phase_i",) * (fold > 1),
+        lengths=(1, 2, 3, 4, 5, 33),
+    )  # fmt: skip
+
+
+def _paint(**parameters: int) -> Stream:
+    def items(rng: Rng, count: np.ndarray, colour: int) -> Arrays:
+        rows, most = len(count), (1 << k.PIXEL_W) - 1
+        light = np.where(
+            rng.random((2, rows)) < 0.25, rng.choice([0, most], (2, rows)), rng.integers(0, most, (2, rows))
+        )
+        fields = dict(
+            zip(
+                (leaf.name for leaf in DRAWN.leaves()),
+                (*light, rng.integers(0, 1 << k.TAG_W, rows), rng.integers(0, 2, rows)),
+                strict=True,
+            )
+        )
+        draw = settings(rng, k.MODEL_BLINN) | {"colour": colour}
+        return {f"drawn_i.{name}": v for name, v in fields.items()} | port(draw)
+
+    def golden(i: Arrays) -> Given:
+        drawn = structure(i, "drawn_i")
+        light = np.stack([drawn["pixel.diffuse"], drawn["pixel.specular"]], -1)
+        words = dict(zip(("pixel.red", "pixel.green", "pixel.blue"), core.paint(light, draw_of(i)).T, strict=True))
+        words |= {"tag": drawn["tag"], "last": drawn["last"]}
+        return Given({f"painted_o.{name}": v for name, v in words.items()}, np.arange(len(light)))
+
+    return Stream(
+        "shade_paint", parameters, items, golden, k.LATENCY_PAINT, kinds=(1, 0), lengths=(1,),
+        held=lambda _, n: 1 << parameters.get("FIFO_LOG2", k.FIFO_LOG2),
+    )  # fmt: skip
+
+
+SMALL = {"REFLECT": 0, "DIVIDE": 0}
+
+
+def streams() -> Iterator[Stream]:
+    """All of them; tests take the first two points of a module by default."""
+    for evaluator in (k.EVALUATOR_HORNER, k.EVALUATOR_FDIFF):
+        for form in FORMS:
+            yield _poly_span(evaluator, form)
+    yield _poly_span(k.EVALUATOR_HORNER, "paper", k.NODES_RIGHT)
+    yield _poly_span(k.EVALUATOR_FDIFF, "paper", k.NODES_RIGHT, LOG2_MAX=6)
+    yield from (_span_walk(), _span_walk(LOG2_MAX=6, CREDIT_LOG2=2), _walk(), _walk(COUNT_W=4, CREDIT_LOG2=1))
+    yield from (pixel_normals(), _pixel_points(), _stretch())
+    yield from (_node_walk(), _node_walk(CREDIT_LOG2=1), _node_walk(FOLD=6), _line(), _line(FOLD=6))
+    yield from (_phong("refined"), _phong("refined", **SMALL), _phong("paper"))
+    small = SMALL | {"PATH_NORMALS": 0}
+    yield from (_lane(), _lane("paper", EVALUATOR=k.EVALUATOR_HORNER, **small), _lane(FOLD=6, **small))
+    yield from (_paint(), _paint(FIFO_LOG2=4))
+
+
 def cases() -> Iterator[Case]:
-    """All cases of ``rtl/stream``."""
-    return in_forms(_fifo)
+    """The FIFO by NumPy; what else it does: tb/stream/test_fifo.py."""
+    same = lambda i: {"data_o": i["data_i"]}  # noqa: E731
+    yield Case(
+        "shade_fifo", "refined", {}, same, same, same, mixed({"data_i": (0, (1 << 32) - 1)}), None, k.LATENCY_FIFO,
+        bound=0, unit_f=0, ordered=True,
+    )  # fmt: skip

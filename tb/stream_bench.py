@@ -7,6 +7,7 @@ from an input to an output. ``POINT`` says which stream.
 
 import os
 import random
+import re
 
 import cocotb
 import numpy as np
@@ -16,6 +17,7 @@ from polyshade.sim.units.stream import streams
 
 from tb.bench import PRESSURE, Bench, Column, Sink, Source, Watch, checked, no_path, phases
 
+FOLD = int(next(iter(re.findall(r"FOLD=(\d)", os.environ["POINT"])), 1))
 STREAM = next((stream for stream in streams() if str(stream) == os.environ["POINT"]), None)
 USUAL = STREAM and (STREAM.usual or STREAM.kinds[:1])
 
@@ -72,7 +74,7 @@ class Run:
     async def compare(self) -> None:
         """Wait for all words and compare them; no more may come."""
         bench, total = self.bench, len(self.given.owner)
-        patience = 20 * STREAM.stride * total + 2000
+        patience = 20 * FOLD * total + 2000
         await bench.until(lambda: len(self.sink.words) >= total, patience, f"{total} words")
         await bench.tick(60 + 30 * bool(STREAM.beside))
         self._compare(self.sink, self.given.words)
@@ -170,9 +172,9 @@ async def blocked(bench: Bench) -> None:
     run = Run(bench)
     for kind in (*USUAL, *USUAL[:1]) if STREAM.held or STREAM.credits else ():
         run.payer.stall = 1.0
-        count = max(9, 4 * STREAM.stride)
+        count = max(9, 4 * FOLD)  # light can keep up
         sending = cocotb.start_soon(run.source.send(run.begin([min(count, STREAM.longest or 1)] * 220, kind)))
-        await bench.tick(1200 * STREAM.stride)
+        await bench.tick(1200 * FOLD)
         if STREAM.credits:
             bench.equal(run.payer.spent, STREAM.credits, "credits that were spent while none came back")
         else:

@@ -12,7 +12,8 @@ from polyshade.golden import contract as k
 from polyshade.golden import light, normal, plan
 from polyshade.golden.fixed import ONE
 from polyshade.sim.sources import Point, label
-from polyshade.sim.units import Case, cases, check_pixel_normals, check_poly_span, unit_vectors
+from polyshade.sim.units import Case, Stream, cases, streams, unit_vectors
+from polyshade.sim.units.stream import measured
 
 from tb.runner import FULL, SEED, simulate
 
@@ -48,6 +49,15 @@ def at_points() -> Iterator[tuple]:
     yield from found.values()
 
 
+def streams_at_points(credits: bool = True) -> Iterator[tuple]:
+    """Every stream, or those without credits; from the third of a module on they are left to ``make test-all``."""
+    numbers: dict[str, int] = {}
+    for stream in streams():
+        numbers[stream.module] = number = numbers.get(stream.module, 0) + 1
+        if credits or not stream.credits:
+            yield pytest.param(stream, id=str(stream), marks=pytest.mark.full if number > 2 else ())
+
+
 @pytest.mark.parametrize("case", [*of_all()])
 def test_numpy(case: Case) -> None:
     """No vector differs, in any bit or clock; no error is beyond its bound."""
@@ -65,32 +75,34 @@ def test_cocotb(module: str, point: Point) -> None:
     simulate(module, point, "tb.case_bench")
 
 
-@pytest.mark.parametrize("form", ["refined", "paper"])
-@pytest.mark.parametrize("evaluator", [k.EVALUATOR_HORNER, k.EVALUATOR_FDIFF])
-@pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.4, 0), (0, 0.4), (0.3, 0.3)])
-def test_poly_span(form: str, evaluator: int, in_gap: float, out_stall: float) -> None:
-    result = check_poly_span(form, evaluator, 40_000 if FULL else 10_000, SEED, in_gap, out_stall)
-    assert result.mismatches == 0, result.first_mismatch
-    # Refined: A and C err by 1/3 ulp at most, never in the same direction, because 3 divides the sum of 3 A and 3 C:
-    # (t - t^3)/3 <= 2/(9 sqrt 3). Paper: 1/2 each. Evaluator: 1/2, Horner 3/16 more.
-    coefficients = 2 / (9 * 3**0.5) if form == "refined" else 1
-    evaluation = 11 / 16 if evaluator == k.EVALUATOR_HORNER else 1 / 2
-    assert result.max_error_ulp <= coefficients + evaluation + 1e-9, result.worst_input
-    if not in_gap and not out_stall:
-        assert result.throughput >= 0.99
+@pytest.mark.parametrize("stream", [*streams_at_points()])
+def test_stream_cocotb(stream: Stream) -> None:
+    """Words, order and clocks, with pauses, resets, and a taker that stands still."""
+    simulate(stream.module, stream.parameters, "tb.stream_bench")
 
 
 @pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.4, 0), (0, 0.4), (0.3, 0.3)])
-def test_pixel_normals(in_gap: float, out_stall: float) -> None:
-    steady = not in_gap and not out_stall
-    vectors = 0
-    for part in range(11 if steady and FULL else 1):  # 100,000 lines are a million normals
-        result = check_pixel_normals(100_000 if FULL else 20_000, SEED + part, in_gap, out_stall)
+@pytest.mark.parametrize("stream", [*streams_at_points(credits=False)])
+def test_stream_numpy(stream: Stream, in_gap: float, out_stall: float) -> None:
+    """Thousands of items of every kind; a word a clock, or as many as there is work for."""
+    for kind in stream.usual or stream.kinds:
+        result = stream.check(20_000 if FULL else 3_000, SEED, in_gap, out_stall, kind)
         assert result.mismatches == 0, result.first_mismatch
-        assert result.max_error_ulp <= 5 / 8
-        assert result.throughput >= 0.98 or not steady
-        vectors += result.vectors
-    assert vectors >= VECTORS or not steady or not FULL
+        if not in_gap and not out_stall and stream.parameters.get("FOLD", 1) == 1:
+            assert result.throughput >= 0.98
+
+
+@pytest.mark.parametrize("name", measured())
+def test_errors_of_streams(name: str) -> None:
+    """Of poly_span A and C err by 1/3 ulp at most, never in the same direction, because 3 divides the sum of 3 A and
+    3 C: (t - t^3)/3 <= 2/(9 sqrt 3); in the paper's form by 1/2 each. Evaluator: 1/2, Horner 3/16 more."""
+    if "normals" in name:
+        bound = 5 / 8
+    else:
+        bound = (2 / (9 * 3**0.5) if "refined" in name else 1) + (1 / 2 if "EVALUATOR" in name else 11 / 16)
+    result = measured()[name].check(100_000 if FULL else 20_000, SEED)
+    assert result.mismatches == 0, result.first_mismatch
+    assert result.max_error_ulp <= bound + 1e-9, result.worst_input
 
 
 def test_midpoint_of_every_cosine() -> None:

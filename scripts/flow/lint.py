@@ -38,7 +38,7 @@ from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, ROOT, Point, label, modules, sources, yardsticks
 from polyshade.sim.tools import environment, package
 from polyshade.sim.tools import verilator as installed
-from polyshade.sim.units import cases
+from polyshade.sim.units import cases, streams
 from polyshade.sim.verilate import reached
 from tqdm import tqdm
 
@@ -146,8 +146,8 @@ def mirror(module: str, path: Path) -> list[str]:
 
 @functools.cache
 def tested() -> set[str]:
-    """The modules that have a case, which is run by every engine."""
-    return {case.module for case in cases() if not case.ordered}
+    """The modules that have a case or a stream, which is run by every engine."""
+    return {case.module for case in cases() if not case.ordered} | {stream.module for stream in streams()}
 
 
 def verilator(module: str, point: Point) -> list[str]:

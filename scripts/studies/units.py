@@ -14,11 +14,11 @@ from __future__ import annotations
 
 import sys
 
-from polyshade.golden import contract
 from polyshade.scripts.report import save
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD
-from polyshade.sim.units import FORMS, Case, Result, cases, check_pixel_normals, check_poly_span
+from polyshade.sim.units import Case, Result, cases
+from polyshade.sim.units.stream import measured
 from tqdm import tqdm
 
 OUT = BUILD / "units.json"
@@ -52,14 +52,13 @@ def measure(vectors: int, seed: int) -> tuple[dict[str, dict], list[str]]:
             report[name] = row(result, False)
             faults.extend([result.first_mismatch] * bool(result.mismatches))
 
-        items = max(64, min(vectors, 10_000_000) // 12)  # spans have 12 pixels, lines 10 normals on average
-        for form in FORMS:
-            stream(f"shade_poly_span/{form}", check_poly_span(form, contract.EVALUATOR_HORNER, items, seed))
-            fdiff = contract.EVALUATOR_FDIFF
-            stream(f"shade_poly_span[EVALUATOR={fdiff}]/{form}", check_poly_span(form, fdiff, items, seed))
-        refined, variants = contract.VARIANT_REFINED, range(contract.VARIANT_V1, contract.VARIANT_V6 + 1)
-        stream("shade_pixel_normals/refined", check_pixel_normals(items, seed, variants=[refined]))
-        stream("shade_pixel_normals/paper", check_pixel_normals(items, seed, variants=variants))
+        items = max(64, min(vectors, 10_000_000) // 12)  # they have about so many words
+        for name, stream in measured().items():
+            bar.set_description(name)
+            result = stream.check(items, seed)
+            bar.update(result.vectors)
+            report[name] = row(result, False)
+            faults += [result.first_mismatch] * bool(result.mismatches)
     return report, faults
 
 

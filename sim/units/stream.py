@@ -44,8 +44,8 @@ class Stream:
 
     ``latency``: clocks from an item to its first word, or from each to its, up to ``slack`` more; its words follow each
     other in ``stride`` clocks. ``steady``: that holds for every item, else only for one that finds nothing in front of
-    it, of the kinds ``alone``. ``pace(inputs, given)``: clocks that an item takes, by default ``stride`` a word;
-    ``brisk``: items follow each other so. ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
+    it, of the kinds ``alone``. ``brisk``: items follow each other so; ``work(inputs)``: clocks each that they are
+    prepared for in turn. ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
     items of n words that are taken while the taker stands still.
 
     Where words cost credits, there are ``credits`` after reset; one pays for all words up to one in which the field
@@ -67,7 +67,7 @@ class Stream:
     stride: int = 1
     steady: bool = True
     brisk: bool = True
-    pace: Callable[[Arrays, Given], np.ndarray] | None = None
+    work: Callable[[Arrays], np.ndarray] | None = None
     longest: int = 0
     held: Callable[[Hashable, int], int] | None = None
     credits: int = 0
@@ -90,9 +90,12 @@ class Stream:
 
     def clocks(self, inputs: Arrays, given: Given) -> int:
         """From the first word of all items to the last, both counted, when nobody pauses."""
-        items = np.bincount(given.owner)
-        pace = self.stride * items if self.pace is None else self.pace(inputs, given)
-        return int(pace[:-1].sum() + self.stride * (items[-1] - 1) + 1)
+        words = np.bincount(given.owner) * self.stride
+        ready = np.cumsum(self.work(inputs) if self.work else 0 * words)
+        end = begin = ready[0]
+        for at, count in zip(ready, words, strict=True):
+            end = max(end, at) + count
+        return int(end - begin - self.stride + 1)
 
     def mixture(self, rng: Rng, rows: int) -> np.ndarray:
         """Lengths of items, half of them of 1 to 4 words."""
@@ -185,7 +188,9 @@ def _nodes(record: Arrays) -> np.ndarray:
     )
 
 
-def _poly_span(evaluator: int, form: str, node_set: int = k.NODES_LEFT, **more: int) -> Stream:
+def _poly_span(evaluator: int, form: str, **more: int) -> Stream:
+    node_set = more.get("NODES", k.NODES_LEFT)
+
     def golden(i: Arrays) -> Given:
         record = unpack(RECORD, i["s_axis_span_tdata"])
         pixels, owner = poly.poly_span(
@@ -216,7 +221,7 @@ def _poly_span(evaluator: int, form: str, node_set: int = k.NODES_LEFT, **more: 
     horner = evaluator == k.EVALUATOR_HORNER
     longest = 1 << more.get("LOG2_MAX", k.LOG2_MAX)
     return Stream(
-        "shade_poly_span", {"EVALUATOR": evaluator, "FORM": FORMS[form], "NODES": node_set} | more,
+        "shade_poly_span", {"EVALUATOR": evaluator, "FORM": FORMS[form]} | more,
         lambda rng, count, kind: {"s_axis_span_tdata": _noise(rng, records(rng, count, kind))}, golden,
         k.LATENCY_POLY_SPAN_HORNER if horner else k.LATENCY_POLY_SPAN_FDIFF, longest=longest, errors=errors,
         held=lambda _, n: (1 << k.FIFO_LOG2) // n + 1,
@@ -230,8 +235,10 @@ def _span_walk(**parameters: int) -> Stream:
         direct = record["head.degree"][owner] == k.DEGREE_DIRECT
         log2 = poly.span_log2(record["head.count"])[owner]
         nodes, at = _nodes(record), np.arange(k.NODE_COUNT) + np.where(direct, j, 0)[:, None]
-        shown = np.where(at < k.NODE_COUNT, np.take_along_axis(nodes[owner], at.clip(max=3)[:, None], -1).T, 0)
-        words = {f"{c}.n{n}": shown[n, i] for i, c in enumerate(("diffuse", "specular")) for n in range(k.NODE_COUNT)}
+        shown = np.where(at[:, None] < 4, np.take_along_axis(nodes[owner], at.clip(max=3)[:, None], -1), 0)
+        words = {
+            f"{c}.n{n}": shown[:, i, n] for i, c in enumerate(("diffuse", "specular")) for n in range(k.NODE_COUNT)
+        }
         words |= {
             "first": (j == 0) | direct, "last": ends(owner, record["head.more"]), "log2": log2,
             "degree": record["head.degree"][owner], "t": j << k.T_F - log2, "tag": record["head.tag"][owner],
@@ -367,7 +374,8 @@ def planned(rng: Rng, count: np.ndarray, kind: Hashable) -> Arrays:
     return {f"job_i.{name}": v for name, v in job.items()} | {f"plan_i.{name}": v for name, v in cut.items()}
 
 
-def _vectors(part: Arrays, *names: str) -> Iterator[np.ndarray]:
+def vectors(part: Arrays, *names: str) -> Iterator[np.ndarray]:
+    """Vectors (S, 3) from their fields."""
     return (np.stack([part[f"{name}.{a}"] for a in "xyz"], -1) for name in names)
 
 
@@ -376,7 +384,7 @@ def _stretch() -> Stream:
         job, cut = structure(i, "job_i"), structure(i, "plan_i")
         words = plan.stretch(*(cut[name] for name in PLANNED))
         owner, shift = words.pop("span"), words.pop("step_log2")
-        n, g = _vectors(job, "normal", "increment")
+        n, g = vectors(job, "normal", "increment")
         step = plan.wrap(g[owner] << shift[:, None], k.STEP_W)
         words |= {
             f"{name}.{a}": v[:, i] for name, v in (("normal", n[owner]), ("step", step)) for i, a in enumerate("xyz")
@@ -402,7 +410,7 @@ def _places(nodes: plan.Nodes, tag: np.ndarray) -> Arrays:
 def _node_walk(**parameters: int) -> Stream:
     def golden(i: Arrays) -> Given:
         job, cut = structure(i, "job_i"), structure(i, "plan_i")
-        nodes = plan.node_walk(*_vectors(job, "normal", "increment"), *(cut[name] for name in PLANNED))
+        nodes = plan.node_walk(*vectors(job, "normal", "increment"), *(cut[name] for name in PLANNED))
         owner = nodes.span[nodes.record]
         words = {f"place.{name}": v for name, v in _places(nodes, job["tag"]).items()} | {"flat": job["flat"][owner]}
         words |= {f"normal.{a}": nodes.vector[:, i] for i, a in enumerate("xyz")}
@@ -410,7 +418,8 @@ def _node_walk(**parameters: int) -> Stream:
 
     fold, room = parameters.get("FOLD", 1), parameters.get("CREDIT_LOG2", k.RECORD_FIFO_LOG2)
     return Stream(
-        "shade_node_walk", parameters, planned, golden, k.LATENCY_NODE_WALK, kinds=(None, LIMITS), stride=fold,
+        "shade_node_walk", parameters, planned, golden,
+        lambda i, _: k.LATENCY_NODE_WALK - i["plan_i.split"], kinds=(None, LIMITS), stride=fold,
         slack=fold - 1, steady=False, brisk=room > 2, credits=1 << room, record="node_o.place.last",
         through=("valid_i", "plan_i"),
     )  # fmt: skip
@@ -424,16 +433,17 @@ def _line(**parameters: int) -> Stream:
     def golden(i: Arrays) -> Given:
         s = Spans.of(i, "span_i")
         nodes, n, zero, short = plan.line(s.normal, s.step, s.count, draw_of(i), s.flat)
-        words = {f"normal_o.{a}": n[:, i] for i, a in enumerate("xyz")} | {"zero_o": zero, "short_o": short}
+        words = {f"unit_o.normal.{a}": n[:, i] for i, a in enumerate("xyz")}
+        words |= {"unit_o.zero": zero, "unit_o.too_short": short}
         return Given(
             words, nodes.span[nodes.record], {f"place_o.{name}": v for name, v in _places(nodes, s.tag).items()}
         )
 
     fold = parameters.get("FOLD", 1)
     return Stream(
-        "shade_line", parameters, items, golden, k.LATENCY_LINE if fold == 1 else k.LATENCY_LINE_FOLDED, steady=False,
+        "shade_line", parameters, items, golden, k.line_latency(fold), steady=False,
         kinds=((k.MODEL_BLINN, 0), (k.MODEL_LAMBERT, 0), (k.MODEL_BLINN, 3)), usual=((k.MODEL_BLINN, 3),), stride=fold,
-        slack=fold - 1, credits=1 << k.RECORD_FIFO_LOG2, record="place_o.last", beside="place_valid_o",
+        credits=1 << k.RECORD_FIFO_LOG2, record="place_o.last", beside="place_valid_o",
         longest=k.PIXELS_MAX, lengths=(5, 9, 33), through=("phase_i",),
     )  # fmt: skip
 
@@ -485,7 +495,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         return path == k.PATH_NORMALS and by_normals
 
     def nodes(i: Arrays) -> np.ndarray:
-        """Of each span, in which light is computed: of one record."""
+        """In which light is computed: of each span's first record."""
         draw, count = draw_of(i), i["span_i.count"]
         return np.where(count <= k.DIRECT_MAX, count, draw["fixed_degree"] + 1)
 
@@ -496,8 +506,8 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         clocks -= (not more.get("REFLECT", 1) and fold == 1) * k.LATENCY_REFLECT
         return clocks if normals(path) else clocks + fold * (nodes(i) - 1)
 
-    def pace(i: Arrays, given: Given) -> np.ndarray:
-        return i["span_i.count"] if normals(draw_of(i)["path"]) else np.maximum(i["span_i.count"], fold * nodes(i))
+    def work(i: Arrays) -> np.ndarray:
+        return 0 * i["span_i.count"] if normals(draw_of(i)["path"]) else fold * nodes(i)
 
     def held(kind: tuple, n: int) -> int:
         """Pixels and records begun, with a credit; before them normals, or spans in the walk and in front of it."""
@@ -510,7 +520,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         "shade_lane", more if form == "refined" else {"FORM": FORMS[form]} | more, items, golden, latency,
         kinds=tuple((path, code, None) for code in CODES for path in PATHS),
         usual=tuple((path, k.MODEL_BLINN, k.DEGREE_CUBIC) for path in PATHS),
-        alone=tuple((path, k.MODEL_BLINN, degree) for path in PATHS for degree in (1, 2, 3)), steady=False, pace=pace,
+        alone=tuple((path, k.MODEL_BLINN, degree) for path in PATHS for degree in (1, 2, 3)), steady=False, work=work,
         longest=k.PIXELS_MAX, held=held, beside="lit_o", through=("phase_i",) * (fold > 1),
         lengths=(1, 2, 3, 4, 5, 33),
     )  # fmt: skip
@@ -550,18 +560,29 @@ SMALL = {"REFLECT": 0, "DIVIDE": 0}
 
 def streams() -> Iterator[Stream]:
     """All of them; tests take the first two points of a module by default."""
-    for evaluator in (k.EVALUATOR_HORNER, k.EVALUATOR_FDIFF):
-        for form in FORMS:
-            yield _poly_span(evaluator, form)
-    yield _poly_span(k.EVALUATOR_HORNER, "paper", k.NODES_RIGHT)
-    yield _poly_span(k.EVALUATOR_FDIFF, "paper", k.NODES_RIGHT, LOG2_MAX=6)
+    yield from (_poly_span(k.EVALUATOR_HORNER, "refined"), _poly_span(k.EVALUATOR_FDIFF, "paper"))
+    yield from (_poly_span(k.EVALUATOR_HORNER, "paper"), _poly_span(k.EVALUATOR_FDIFF, "refined"))
+    yield _poly_span(k.EVALUATOR_HORNER, "paper", NODES=k.NODES_RIGHT)
+    yield _poly_span(k.EVALUATOR_FDIFF, "paper", NODES=k.NODES_RIGHT, LOG2_MAX=6)
     yield from (_span_walk(), _span_walk(LOG2_MAX=6, CREDIT_LOG2=2), _walk(), _walk(COUNT_W=4, CREDIT_LOG2=1))
     yield from (pixel_normals(), _pixel_points(), _stretch())
     yield from (_node_walk(), _node_walk(CREDIT_LOG2=1), _node_walk(FOLD=6), _line(), _line(FOLD=6))
+    yield from (_line(FOLD=fold) for fold in (2, 3, 4, 5, 7, 8))
     yield from (_phong("refined"), _phong("refined", **SMALL), _phong("paper"))
     small = SMALL | {"PATH_NORMALS": 0}
     yield from (_lane(), _lane("paper", EVALUATOR=k.EVALUATOR_HORNER, **small), _lane(FOLD=6, **small))
     yield from (_paint(), _paint(FIFO_LOG2=4))
+
+
+def measured() -> dict[str, Stream]:
+    """Those whose errors are measured, by their names in ``units.json``."""
+    found = {}
+    for form in FORMS:
+        for evaluator, point in ((k.EVALUATOR_HORNER, ""), (k.EVALUATOR_FDIFF, f"[EVALUATOR={k.EVALUATOR_FDIFF}]")):
+            found[f"shade_poly_span{point}/{form}"] = _poly_span(evaluator, form)
+    papers = range(k.VARIANT_V1, k.VARIANT_V6 + 1)
+    found["shade_pixel_normals/refined"] = pixel_normals([k.VARIANT_REFINED])
+    return found | {"shade_pixel_normals/paper": pixel_normals(papers)}
 
 
 def cases() -> Iterator[Case]:

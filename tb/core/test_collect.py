@@ -9,10 +9,11 @@ from polyshade.golden.core import collect
 from polyshade.golden.plan import node_walk
 from polyshade.golden.poly import pack_records
 from polyshade.golden.types import INTENSITY, PLACE, whole
+from polyshade.sim.units.spans import structure
+from polyshade.sim.units.stream import PLANNED, planned, vectors
 
 from tb.bench import TRAFFIC, Bench, checked, patterns
 from tb.core.vectors import number
-from tb.plan.test_node_walk import spans
 from tb.runner import simulate
 
 
@@ -26,8 +27,9 @@ async def stream(bench: Bench, gap: float, reset: float) -> None:
 
     Behind a reset the next span begins.
     """
-    sent = spans(bench, 150)
-    nodes = node_walk(*(sent[name] for name in list(sent)[:8]))
+    sent = planned(bench.rng, np.ones(150), None)
+    cut = structure(sent, "plan_i")
+    nodes = node_walk(*vectors(structure(sent, "job_i"), "normal", "increment"), *(cut[name] for name in PLANNED))
     rows, of = len(nodes.slot), nodes.record
     light = np.stack([bench.signed(k.INTENSITY_W, rows) for _ in range(k.CHANNELS)], axis=-1)
     tag = bench.rng.integers(0, 1 << k.TAG_W, len(nodes.span))

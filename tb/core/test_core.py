@@ -21,9 +21,9 @@ from polyshade.golden import contract as k
 from polyshade.golden.core import Told
 from polyshade.golden.core import core as golden_core
 from polyshade.golden.registers import ID, after_reset, every, pack, unpack
+from polyshade.sim.units.spans import CODES, Spans, settings, spans
 
 from tb.bench import PRESSURE, Bench, Mismatch, checked, no_path
-from tb.core.vectors import CODES, Spans, settings, spans
 from tb.runner import points, simulate
 
 OFFSETS = {register.name: register.offset for register in every()}
@@ -216,12 +216,12 @@ class Core:
 def any_settings(bench: Bench, code: int, path: int) -> dict[str, int]:
     """A draw call: any material of a model, in colour or not, adaptive or of fixed degree."""
     chosen = {"variant": code, "fixed_degree": random.choice([0, 0, 1, 2, 3]), "colour": random.getrandbits(1)}
-    return settings(bench, code) | chosen | {"path": path}
+    return settings(bench.rng, code) | chosen | {"path": path}
 
 
 def calm(bench: Bench, count: list[int]) -> Spans:
     """Spans of normals that almost look at the viewer, in which nothing is at fault but their length."""
-    sent = spans(bench, count)
+    sent = spans(bench.rng, count)
     sent.normal[:] = bench.rng.integers(-(1 << 24), 1 << 24, sent.normal.shape)
     sent.normal[:, 2] += 1 << k.STEP_F
     sent.step[:] = bench.rng.integers(-(1 << 14), 1 << 14, sent.step.shape)
@@ -240,7 +240,7 @@ async def traffic(bench: Bench, gap: float, stall: float) -> None:
         await core.begin(any_settings(bench, code, path % 2))
         count = bench.rng.choice([0, 1, 2, 3, 4, 5, 9, 30, k.PIXELS_MAX + 1], 30 * core.watch.lanes)
         torn = bench.rng.choice([0, SHORT, LONG], count.size, p=[0.9, 0.05, 0.05])
-        sent = spans(bench, count)
+        sent = spans(bench.rng, count)
         told = core.send(sent, torn)
         await bench.until(lambda: core.watch.inside > 0, 200, "a span taken")
         await meddle(core, lambda told=told: core.watch.pixels < len(told.span) // 4)
@@ -268,7 +268,7 @@ async def lengths(bench: Bench, path: int) -> None:
     """Spans of 0, 1, 2, 3, 4, 5 and 4096 pixels, and of one too many."""
     core = Core(bench)
     await core.begin(any_settings(bench, k.MODEL_BLINN, path))
-    sent = spans(bench, [0, 1, 2, 3, 4, 5, k.PIXELS_MAX, 5, 4, 3, 2, 1, 0, k.PIXELS_MAX + 1, 1])
+    sent = spans(bench.rng, [0, 1, 2, 3, 4, 5, k.PIXELS_MAX, 5, 4, 3, 2, 1, 0, k.PIXELS_MAX + 1, 1])
     await core.compare(sent, core.send(sent))
 
 
@@ -309,7 +309,7 @@ async def throughput(bench: Bench, path: int) -> None:
     """A pixel a clock and lane."""
     core = Core(bench)
     await core.begin(any_settings(bench, k.MODEL_BLINN, path) | {"fixed_degree": k.DEGREE_CUBIC})
-    sent = spans(bench, [8] * 30 * core.watch.lanes)
+    sent = spans(bench.rng, [8] * 30 * core.watch.lanes)
     await core.compare(sent, core.send(sent))
     clocks = [clock for lane in core.watch.clocks for clock in lane]
     took = max(clocks) - min(clocks) + 1
@@ -324,7 +324,7 @@ async def blocked(bench: Bench, path: int) -> None:
     await core.begin(any_settings(bench, k.MODEL_BLINN, path) | {"fixed_degree": k.DEGREE_CUBIC})
     still = random.randrange(lanes)
     core.stall[still] = 1.0
-    sent = spans(bench, [7] * 230 * lanes)
+    sent = spans(bench.rng, [7] * 230 * lanes)
     told = core.send(sent)
     await bench.tick(230 * 7 * lanes + 1000)
     if lanes == 1:
@@ -394,7 +394,7 @@ async def reset(bench: Bench, stall: float) -> None:
     for path in (k.PATH_POLY, k.PATH_NORMALS, k.PATH_POLY):
         core.stall = [stall] * core.watch.lanes
         await core.begin(any_settings(bench, random.choice(CODES), path))
-        sent = spans(bench, bench.rng.integers(0, 60, 80))
+        sent = spans(bench.rng, bench.rng.integers(0, 60, 80))
         core.send(sent, bench.rng.choice([0, LONG], 80, p=[0.8, 0.2]))
         await bench.tick(random.randrange(20, 3 * k.LATENCY_LANE))
         core.source.clear()
@@ -431,7 +431,7 @@ async def cleared(bench: Bench) -> None:
     """CONTROL.clear sets counters and status to 0 while spans are inside, and nothing else."""
     core = Core(bench)
     await core.begin(any_settings(bench, k.MODEL_BLINN, k.PATH_POLY))
-    sent = spans(bench, [0, 300, 300])
+    sent = spans(bench.rng, [0, 300, 300])
     told = core.send(sent)
     await bench.until(lambda: core.watch.pixels > 100, 1000, "pixels")
     words = pack(core.draw | {"clear": 1})
@@ -476,7 +476,7 @@ async def paths(bench: Bench) -> None:
     outputs += [f"s_axil_{name}" for name in ("awready", "wready", "bvalid", "bresp")]
     outputs += [f"s_axil_{name}" for name in ("arready", "rvalid", "rdata", "rresp")]
     cocotb.start_soon(no_path(bench, inputs, outputs))
-    sent = spans(bench, bench.rng.integers(0, 9, 40))
+    sent = spans(bench.rng, bench.rng.integers(0, 9, 40))
     told = core.send(sent)
     await bench.until(lambda: core.watch.inside > 0, 200, "a span taken")
     await meddle(core, lambda: core.watch.pixels < len(told.span) // 4)

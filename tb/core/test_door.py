@@ -7,9 +7,10 @@ import cocotb
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden.types import TOLD
+from polyshade.sim.units.spans import spans
 
 from tb.bench import Bench, Source, checked, no_path
-from tb.core.vectors import set_draw, spans
+from tb.core.vectors import set_draw
 from tb.runner import points, simulate
 
 SPAN = "s_axis_span_"
@@ -72,7 +73,7 @@ async def traffic(bench: Bench, gap: float, ready: float) -> None:
     """Spans of all lengths, torn ones among them: what is good goes on unaltered, in order."""
     source, lanes = setup(bench, ready, **V1, threshold=-1)
     count = bench.rng.choice([0, 1, 3, 4, 13, 14, k.PIXELS_MAX, k.PIXELS_MAX + 1, (1 << k.COUNT_W) - 1], 150)
-    sent, told = spans(bench, count), dict.fromkeys(lanes.told, 0)
+    sent, told = spans(bench.rng, count), dict.fromkeys(lanes.told, 0)
     beats, good = [], []
     kinds = bench.rng.choice(4, 150, p=[0.7, 0.1, 0.1, 0.1]).tolist()
     for (data,), n, how in zip(sent.words(), count.tolist(), kinds, strict=True):
@@ -101,7 +102,7 @@ async def traffic(bench: Bench, gap: float, ready: float) -> None:
 async def balance(bench: Bench) -> None:
     """Long spans among short ones: no lane gets much more to draw than another; busy_o until all is drawn."""
     source, lanes = setup(bench)
-    sent = spans(bench, [64, 4, 4, 4] * 40)
+    sent = spans(bench.rng, [64, 4, 4, 4] * 40)
     await source.send([(data, WHOLE, 1) for (data,) in sent.words()])
     await bench.tick(3)
     drawn = [0] * lanes.lanes
@@ -123,7 +124,7 @@ async def quiet(bench: Bench) -> None:
         (V1 | {"threshold": 1 << k.INTENSITY_F}, 1, 0), (V1 | {"threshold": (1 << k.INTENSITY_F) + 1}, 1, 1),
     ):  # fmt: skip
         set_draw(bench, draw)
-        await source.send([(data, WHOLE, 1) for (data,) in spans(bench, [3]).words()])
+        await source.send([(data, WHOLE, 1) for (data,) in spans(bench.rng, [3]).words()])
         await bench.tick(5)
         wanted["metric"] += metric * normals
         wanted["threshold"] += threshold * normals
@@ -134,7 +135,7 @@ async def quiet(bench: Bench) -> None:
 async def holds(bench: Bench) -> None:
     """While hold_i is 1 nothing is taken; what is in goes on."""
     source, lanes = setup(bench)
-    beats = [(data, WHOLE, 1) for (data,) in spans(bench, [5, 6, 7]).words()]
+    beats = [(data, WHOLE, 1) for (data,) in spans(bench.rng, [5, 6, 7]).words()]
     await source.send(beats[:1])
     bench.dut.hold_i.value = 1
     sending = cocotb.start_soon(source.send(beats[1:]))
@@ -162,7 +163,7 @@ async def reset(bench: Bench) -> None:
         lanes.ready = 1.0
         await bench.tick()
         lanes.given.clear()
-        beats = [(data, WHOLE, 1) for (data,) in spans(bench, [5, 6]).words()]
+        beats = [(data, WHOLE, 1) for (data,) in spans(bench.rng, [5, 6]).words()]
         await source.send(beats)
         await bench.tick(3)
         bench.equal([data for data, _ in lanes.given], [data for data, _, _ in beats], "spans")
@@ -174,6 +175,6 @@ async def paths(bench: Bench) -> None:
     source, lanes = setup(bench, 0.5)
     inputs = [SPAN + name for name in ("tvalid", "tdata", "tkeep", "tlast")]
     cocotb.start_soon(no_path(bench, inputs, [SPAN + "tready", "valid_o", "span_o", "told_o"]))
-    beats = [(data, WHOLE, 1) for (data,) in spans(bench, np.arange(1, 30)).words()]
+    beats = [(data, WHOLE, 1) for (data,) in spans(bench.rng, np.arange(1, 30)).words()]
     await source.send(beats, 0.3)
     await bench.until(lambda: len(lanes.given) == len(beats), 200, "all spans")

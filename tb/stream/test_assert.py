@@ -3,11 +3,17 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from polyshade import sim
-from polyshade.golden.types import PLAN, RECORD
+from polyshade.golden import contract as k
+from polyshade.golden.types import PLAN, RECORD, SPAN
+from polyshade.sim import model, verilate
 from polyshade.sim.model import SimulationError
+from polyshade.sim.sources import modules, sources
 
 from tb.bench import Bench, checked
 from tb.runner import simulate
@@ -29,41 +35,98 @@ async def holds(bench: Bench) -> None:
         bench.checks += 1
 
 
-def fires(capfd: pytest.CaptureFixture[str], name: str, module: str, point: dict[str, int], **run: object) -> None:
-    """A run ends with the assertion of that name."""
-    with pytest.raises(SimulationError, match="an assertion failed"):
-        sim.load(module, **point).run(**run)
-    assert f"{name}: Assertion failed" in capfd.readouterr().out.replace("Assertion failed in top.", "").replace(
-        ": 'assert' failed", ": Assertion failed"
-    )
+def text(module: str) -> str:
+    """Its source, without comments."""
+    return re.sub(r"//.*", "", modules()[module].read_text())
+
+
+def instances() -> set[str]:
+    """All assertions of the RTL: module and instance."""
+    pattern = r"\bshade_(?:assert|stable)\b\s*(?:#\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))?\s*(u_\w+)"
+    return {f"{module}.{name}" for module in modules() for name in re.findall(pattern, text(module))}
 
 
 RECORD_OF = {name: EMPTY | {"head.count": n, "head.degree": d} for name, n, d in (("none", 0, 3), ("long", 5, 0))}
+NOTHING = dict.fromkeys(PLANNED, 0) | {"last_count": 1}
+QUIET = {"events_i": 0, "counts_i": 0, "busy_i": [0] * 9}
+JOBS = {"normal": dict.fromkeys("xyz", 0), "increment": dict.fromkeys("xyz", 0), "flat": 0, "tag": range(40)}
+EMPTY_SPAN = dict.fromkeys((leaf.name for leaf in SPAN.leaves()), 0)
+JAM = {"data_i": np.arange(9), "out_stall": 1.0, "patience": 50}
+DOOR = {"s_axis_span_tkeep": (1 << k.SPAN_DATA_W // 8) - 1, "s_axis_span_tlast": 1, "draw_i": 0, "hold_i": 0}
+DOOR |= {"room_i": 0, "s_axis_span_tdata": np.ones((9, 8), np.uint32)}
+NARROW = {"REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}
+
 CASES = {
-    "assert": ("shade_assert", "shade_assert", {}, {"holds_i": [1, 1, 0]}),
-    "credit: taken without one": ("u_underflow", "shade_credit", {"LOG2": 1}, {"take_i": [1] * 3, "give_i": 0}),
-    "credit: given too many": ("u_overflow", "shade_credit", {"LOG2": 1}, {"take_i": [1, 0, 0], "give_i": [0, 1, 1]}),
-    "fifo: written when full": (
-        "u_overflow", "shade_fifo", {"LOG2": 1}, {"data_i": np.arange(9), "out_stall": 1.0, "patience": 50},
+    # instance: module, parameters, inputs by which it fires; or the fault of the RTL, old and new text, that it finds
+    "shade_stable.u_stable": ("shade_stable", {}, {"data_i": np.arange(40), "out_stall": 0.5, "patience": 50}, ()),
+    "shade_credit.u_underflow": ("shade_credit", {"LOG2": 1}, {"take_i": [1] * 3, "give_i": 0}, ()),
+    "shade_credit.u_overflow": ("shade_credit", {"LOG2": 1}, {"take_i": [1, 0, 0], "give_i": [0, 1, 1]}, ()),
+    "shade_fifo.u_overflow": ("shade_fifo", {"LOG2": 1}, JAM, ()),
+    "shade_fifo.u_overflow, of blocks": ("shade_fifo", {"LOG2": 2, "BLOCK": 1}, JAM, ()),
+    "shade_fifo.u_stable": (
+        "shade_fifo", {}, {"data_i": np.arange(99), "out_stall": 0.5}, ("= !valid_o || ready_i;", "= 1'b1;"),
     ),
-    "fifo in blocks: written when full": (
-        "u_overflow", "shade_fifo", {"LOG2": 2, "BLOCK": 1}, {"data_i": np.arange(9), "out_stall": 1.0, "patience": 50},
+    "shade_walk.u_empty": ("shade_walk", {}, {"count_i": [1, 0], "credit_i": 0}, ()),
+    "shade_credit.u_overflow, in a walk": ("shade_walk", {}, {"count_i": 1, "credit_i": 1}, ()),
+    "shade_walk.u_empty, of a record": ("shade_span_walk", {}, {"record_i": RECORD_OF["none"], "credit_i": 0}, ()),
+    "shade_span_walk.u_long": ("shade_span_walk", {}, {"record_i": RECORD_OF["long"], "credit_i": 0}, ()),
+    "shade_node_walk.u_phase": (
+        "shade_node_walk", {"FOLD": 6}, {"pace": 5, "job_i": 0, "plan_i": NOTHING, "credit_i": 0}, ()
     ),
-    "stable: a waiting word changes": (
-        "u_stable", "shade_stable", {}, {"data_i": np.arange(40), "out_stall": 0.5, "patience": 50},
+    "shade_stretch.u_stable": (
+        "shade_stretch", {}, {"job_i": JOBS, "plan_i": NOTHING, "out_stall": 0.5, "patience": 50},
+        ("chosen_valid_q && (!valid_o || ready_i)", "chosen_valid_q"),
     ),
-    "walk: an item of no steps": ("u_empty", "shade_walk", {}, {"count_i": [1, 0], "credit_i": 0}),
-    "walk: credits that were not spent": ("u_credit.u_overflow", "shade_walk", {}, {"count_i": 1, "credit_i": 1}),
-    "record of no pixels": ("u_walk.u_empty", "shade_span_walk", {}, {"record_i": RECORD_OF["none"], "credit_i": 0}),
-    "direct record of five": ("u_long", "shade_span_walk", {}, {"record_i": RECORD_OF["long"], "credit_i": 0}),
-    "node walk: phases that are not those of the units behind": (
-        "u_phase", "shade_node_walk", {"FOLD": 6},
-        {"pace": 5, "job_i": 0, "plan_i": dict.fromkeys(PLANNED, 0) | {"last_count": 1}, "credit_i": 0},
+    "shade_line.u_job": (
+        "shade_line", {"FOLD": 6}, {"pace": 6, "span_i": EMPTY_SPAN | {"count": [1] * 9}, "draw_i": 0, "credit_i": 0},
+        ("u_jobs ( .clk_i, .rst_i, .valid_i(take)", "u_jobs (.clk_i, .rst_i, .valid_i(1'b0)"),
+    ),
+    "shade_lane.u_place": (
+        "shade_lane", NARROW, {"span_i": EMPTY_SPAN | {"count": [1] * 9}, "draw_i": 0},
+        ("dark_q <= !rst_i &&", "dark_q <= !rst_i ||"),
+    ),
+    "shade_door.u_given": ("shade_door", {}, DOOR | {"given_i": 1, "patience": 50}, ()),
+    "shade_registers.u_write": (
+        "shade_registers", {}, QUIET | {"writes": {0x40: 0}},
+        ("if (s_axil_bready) s_axil_bvalid <= 1'b0;", "if (!s_axil_bready) s_axil_bresp <= ~s_axil_bresp;"),
+    ),
+    "shade_registers.u_read": (
+        "shade_registers", {}, QUIET | {"writes": {0x40: 0}},
+        ("if (read) {s_axil_arready, s_axil_rvalid} <= 2'b11;",
+         "if (write) s_axil_rvalid <= 1'b1; if (idle) s_axil_rdata <= ~s_axil_rdata;"),
     ),
 }  # fmt: skip
 
 
+def test_every_assertion_has_its_test() -> None:
+    """A new one needs a case here: what cannot be provoked guards nothing."""
+    assert instances() == {name.partition(",")[0] for name in CASES} | {"shade_door.u_stable"}
+
+
 @pytest.mark.parametrize("case", CASES)
-def test_it_fires(capfd: pytest.CaptureFixture[str], case: str) -> None:
-    name, module, point, run = CASES[case]
-    fires(capfd, name, module, point, **run)
+def test_it_fires(
+    capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, case: str
+) -> None:
+    """By what comes in where that is enough; by a fault of the RTL where only one can break the rule."""
+    module, point, run, fault = CASES[case]
+    if fault:
+        old = r"\s*".join(map(re.escape, fault[0].split()))
+        found, times = re.subn(old, lambda _: fault[1], text(module))
+        assert times, f"{module}: no '{fault[0]}'"
+        changed = tmp_path / f"{module}.sv"
+        changed.write_text(found)
+        known = [changed if path.stem == module else path for path in sources()]
+        monkeypatch.setattr(verilate, "sources", lambda: known)
+        monkeypatch.setattr(verilate, "modules", lambda: {path.stem: path for path in known})
+        monkeypatch.setattr(model, "_loaded", {})
+    with pytest.raises(SimulationError, match="an assertion failed"):
+        sim.load(module, **point).run(**run)
+    path = re.search(r"TOP\S*?(?=:)", capfd.readouterr().out)[0]
+    assert case.partition(",")[0].partition(".")[2] in path.split("."), path
+
+
+def test_a_sender_that_withdraws() -> None:
+    """shade_door.u_stable, by a packet that does not wait until it is taken."""
+    with pytest.raises(pytest.fail.Exception) as told:
+        simulate("shade_door", {"PATH_NORMALS": 0}, "tb.core.rude_bench")
+    assert "shade_door.u_stable" in Path(re.search(r"log: (.*)", str(told.value))[1]).read_text()

@@ -8,14 +8,16 @@ from an input to an output. ``POINT`` says which stream.
 import os
 import random
 import re
+from collections import deque
 
 import cocotb
 import numpy as np
+from cocotb.handle import ValueObjectBase
 from polyshade.sim.model import interface
 from polyshade.sim.units.case import Arrays
 from polyshade.sim.units.stream import streams
 
-from tb.bench import PRESSURE, Bench, Column, Sink, Source, Watch, checked, no_path, phases
+from tb.bench import PRESSURE, Bench, Column, Sink, Source, Watch, checked, no_path, phases, scramble
 
 FOLD = int(next(iter(re.findall(r"FOLD=(\d)", os.environ["POINT"])), 1))
 STREAM = next((stream for stream in streams() if str(stream) == os.environ["POINT"]), None)
@@ -34,7 +36,11 @@ class Run:
         self.bench, face = bench, interface(list(bench.ports.values()))
         inputs = STREAM.items(bench.rng, np.array([1]), STREAM.kinds[0])
         given = STREAM.golden(inputs)
-        self.source = Source(bench, face.into.valid, face.into.ready, ports(inputs))
+        self.names = [name for name in ports(inputs) if name != STREAM.apart[0]]
+        self.source = Source(bench, face.into.valid, face.into.ready, self.names)
+        self.waiting: deque[int] = deque()
+        if STREAM.apart[0]:
+            cocotb.start_soon(self._offer(*(getattr(bench.dut, name) for name in STREAM.apart)))
         credit = {"credit": "credit_i", "credits": STREAM.credits, "pays": self._pays} if STREAM.credits else {}
         self.beside = Watch(bench, STREAM.beside, ports(given.beside), **credit) if STREAM.beside else None
         valid, payload = STREAM.valid or face.out.valid, ports(given.words)
@@ -46,6 +52,18 @@ class Run:
         self.payer.stall = stall
         if hasattr(bench.dut, "phase_i"):
             cocotb.start_soon(phases(bench))
+
+    async def _offer(self, port: ValueObjectBase, taken: ValueObjectBase) -> None:
+        while True:
+            if self.waiting:
+                port.value = self.waiting[0]
+            else:
+                scramble(port)
+            await self.bench.tick()
+            if int(self.bench.dut.rst_i.value):
+                self.waiting.clear()
+            elif int(taken.value):
+                self.waiting.popleft()
 
     def _pays(self, word: tuple[int, ...]) -> bool:
         if not STREAM.record:
@@ -66,10 +84,12 @@ class Run:
             (column,) = self.bench.columns(draw)
             column.port.value = column.rows[0]
         moving = {name: v for name, v in self.inputs.items() if not name.startswith("draw_i.")}
-        spare = [
-            [bits | random.getrandbits(len(c.port)) & ~c.mask for bits in c.rows] for c in self.bench.columns(moving)
-        ]  # bits without a meaning
-        return list(zip(*spare, strict=True))
+        rows = {
+            c.port._name: [bits | random.getrandbits(len(c.port)) & ~c.mask for bits in c.rows]  # any bits without a meaning
+            for c in self.bench.columns(moving)
+        }  # fmt: skip
+        self.waiting = deque(rows.get(STREAM.apart[0], ()))
+        return list(zip(*(rows[name] for name in self.names), strict=True))
 
     async def compare(self) -> None:
         """Wait for all words and compare them; no more may come."""

@@ -49,12 +49,12 @@ def at_points() -> Iterator[tuple]:
     yield from found.values()
 
 
-def streams_at_points(credits: bool = True) -> Iterator[tuple]:
-    """Every stream, or those without credits; from the third of a module on they are left to ``make test-all``."""
+def streams_at_points(slow: bool) -> Iterator[tuple]:
+    """Every stream, or those that NumPy runs, which knows no credits; from the third of a module on they are left to ``make test-all``."""
     numbers: dict[str, int] = {}
     for stream in streams():
         numbers[stream.module] = number = numbers.get(stream.module, 0) + 1
-        if credits or not stream.credits:
+        if slow or not (stream.credits or stream.apart[0]):
             yield pytest.param(stream, id=str(stream), marks=pytest.mark.full if number > 2 else ())
 
 
@@ -75,14 +75,14 @@ def test_cocotb(module: str, point: Point) -> None:
     simulate(module, point, "tb.case_bench")
 
 
-@pytest.mark.parametrize("stream", [*streams_at_points()])
+@pytest.mark.parametrize("stream", [*streams_at_points(slow=True)])
 def test_stream_cocotb(stream: Stream) -> None:
     """Words, order and clocks, with pauses, resets, and a taker that stands still."""
     simulate(stream.module, stream.parameters, "tb.stream_bench")
 
 
 @pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.4, 0), (0, 0.4), (0.3, 0.3)])
-@pytest.mark.parametrize("stream", [*streams_at_points(credits=False)])
+@pytest.mark.parametrize("stream", [*streams_at_points(slow=False)])
 def test_stream_numpy(stream: Stream, in_gap: float, out_stall: float) -> None:
     """Thousands of items of every kind; a word a clock, or as many as there is work for."""
     for kind in stream.usual or stream.kinds:

@@ -38,8 +38,9 @@ from polyshade.scripts.report import save
 from polyshade.sim import core
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, Point, label
-from polyshade.sim.units import Case, Result, cases, check_pixel_normals, check_poly_span
+from polyshade.sim.units import Case, Result, cases
 from polyshade.sim.units.case import Arrays
+from polyshade.sim.units.stream import pixel_normals, poly_span
 from polyshade.sim.verilate import reached
 from tqdm import tqdm
 
@@ -228,15 +229,11 @@ def _core(vectors: int, seed: int) -> Result:
 
 CORE = {"LANES": 1, "EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED, **SMALL}
 FOUR = "four states"
-SPAN = {"EVALUATOR": k.EVALUATOR_FDIFF, "FORM": k.FORM_REFINED}
+SPAN, LINE = poly_span(k.EVALUATOR_FDIFF, "refined"), pixel_normals()
 STREAMS: dict[str, tuple[str, Point, Callable[[int, int], Result]]] = {  # what it is: module, point, vectors and seed
     "spans of random registers": ("shade_core", CORE, _core),
-    "spans": (
-        "shade_poly_span",
-        SPAN,
-        lambda n, s: check_poly_span("refined", k.EVALUATOR_FDIFF, n // 12, s, 0.2, 0.2),
-    ),
-    "lines": ("shade_pixel_normals", {}, lambda n, s: check_pixel_normals(n // 10, s, 0.2, 0.2)),
+    "spans": (SPAN.module, SPAN.parameters, lambda n, s: SPAN.check(n // 12, s, 0.2, 0.2)),
+    "lines": (LINE.module, LINE.parameters, lambda n, s: LINE.check(n // 10, s, 0.2, 0.2)),
 }
 
 

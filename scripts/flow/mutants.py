@@ -43,7 +43,8 @@ from polyshade.scripts.report import save
 from polyshade.sim import patch
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, ROOT, Point, label, modules
-from polyshade.sim.units import Case, cases, check_pixel_normals, check_poly_span
+from polyshade.sim.units import Case, Stream, cases, streams
+from polyshade.sim.units.stream import pixel_normals, poly_span
 from polyshade.sim.verilate import key_of, once, ports, reached
 from tqdm import tqdm
 
@@ -97,6 +98,7 @@ class Target:
 def targets() -> list[Target]:
     """Every module with what it is tested by."""
     points = {case.module: case.parameters for case in reversed(cases()) if case.parameters.get("DEPTH") != 0}
+    points |= {stream.module: stream.parameters for stream in reversed([*streams()])}
     points[PARTS] = {"LANES": 2}
     found = []
     for module, path in modules().items():
@@ -104,6 +106,8 @@ def targets() -> list[Target]:
         text = own.read_text() if own.exists() else ""
         first = "[default]" if "def test_cocotb(point)" in text else ""
         bench = f"{own.relative_to(ROOT)}::test_cocotb{first}" if "def test_cocotb(" in text else ""
+        if module in {stream.module for stream in streams()}:
+            bench = f"tb/test_units.py::test_stream_cocotb[{label(module, points[module])}]"
         inner = module.startswith(f"{PARTS}_") and module not in points
         if module not in NONE:
             found.append(Target(module, PARTS if inner else module, points.get(PARTS if inner else module, {}), bench))
@@ -224,7 +228,7 @@ def _with_parameters(target: Target, text: str, folder: Path) -> str:
 # ---- the tests -----------------------------------------------------------------------------------------------------
 
 
-def _frames() -> bool:
+def _frames(_model: sim.Model) -> bool:
     """Triangles of all kinds through ``shade_patch``: equal?"""
     for model, seed in (("blinn", 1), ("lambert", 2), ("blinn", 3)):
         given = soak.triangles(np.random.default_rng(seed), 120)
@@ -235,20 +239,16 @@ def _frames() -> bool:
     return True
 
 
-def _spans() -> bool:
-    return not any(
-        check_poly_span("refined", k.EVALUATOR_HORNER, 300, 1, *pause).mismatches for pause in ((), (0.3, 0.3))
-    )
+def _equal(stream: Stream, items: int) -> Callable[[sim.Model], bool]:
+    """Items through a module, without pauses and with them: equal?"""
+    pauses = ((), (0.3, 0.3))
+    return lambda model: not any(stream.check(items, 1, *pause, model=model).mismatches for pause in pauses)
 
 
-def _normals() -> bool:
-    return not any(check_pixel_normals(500, 1, *pause).mismatches for pause in ((), (0.3, 0.3)))
-
-
-STREAMS: dict[str, Callable[[], bool]] = {
+STREAMS: dict[str, Callable[[sim.Model], bool]] = {
     PARTS: _frames,
-    "shade_poly_span": _spans,
-    "shade_pixel_normals": _normals,
+    "shade_poly_span": _equal(poly_span(k.EVALUATOR_HORNER, "refined"), 300),
+    "shade_pixel_normals": _equal(pixel_normals(), 500),
 }
 
 
@@ -279,13 +279,13 @@ def by_stream(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int
     """The mutants that a whole stream through the module kills."""
     model, check = sim.load(target.top, **target.point), STREAMS[target.top]
     model.mutant, model.most = 0, sim.model.NEVER
-    if not check():
+    if not check(model):
         raise Differs(f"{target.module}: differs from the golden model without a fault")
     model.most = 2_000_000
     for mutant in alive:
         model.mutant = mutant
         try:
-            killed = not check()
+            killed = not check(model)
         except Exception:  # a stream that is torn is no packet any more, and what unpacks it may fail in any way
             killed = True
         if killed:

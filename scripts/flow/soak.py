@@ -36,7 +36,8 @@ from polyshade.sim.scene.camera import Screen
 from polyshade.sim.scene.raster import scan_convert
 from polyshade.sim.scene.triangles import Triangles
 from polyshade.sim.sources import BUILD
-from polyshade.sim.units import FORMS, cases, check_pixel_normals, check_poly_span
+from polyshade.sim.units import FORMS, cases
+from polyshade.sim.units.stream import pixel_normals, poly_span
 from tqdm import tqdm
 
 OUT = BUILD / "soak.json"
@@ -132,7 +133,7 @@ def spans(rng: np.random.Generator, seed: int) -> Outcome:
     """Spans through the evaluators."""
     form, evaluator = str(rng.choice([*FORMS])), int(rng.choice([k.EVALUATOR_HORNER, k.EVALUATOR_FDIFF]))
     gap, stall = (float(v) for v in rng.choice(PAUSES, 2))
-    result = check_poly_span(form, evaluator, 5000, seed, gap, stall)
+    result = poly_span(evaluator, form).check(5000, seed, gap, stall)
     bins = {"form": form, "evaluator": evaluator, "gap": gap > 0, "stall": stall > 0}
     return Outcome("spans", seed, result.vectors, result.mismatches, result.first_mismatch, bins)
 
@@ -140,7 +141,7 @@ def spans(rng: np.random.Generator, seed: int) -> Outcome:
 def normals(rng: np.random.Generator, seed: int) -> Outcome:
     """Lines of normals."""
     gap, stall = (float(v) for v in rng.choice(PAUSES, 2))
-    result = check_pixel_normals(5000, seed, gap, stall)
+    result = pixel_normals().check(5000, seed, gap, stall)
     return Outcome(
         "normals", seed, result.vectors, result.mismatches, result.first_mismatch, {"gap": gap > 0, "stall": stall > 0}
     )

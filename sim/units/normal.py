@@ -355,5 +355,5 @@ def _increment(form: str) -> Iterator[Case]:
 
 
 def cases() -> Iterator[Case]:
-    """All cases of ``rtl/normal`` but whole lines, which are checked by :func:`sim.units.check_pixel_normals`."""
+    """All cases of ``rtl/normal`` but whole lines, a stream."""
     return in_forms(_normalize, _unit, _vectors, _cosines, _nodes, _metric, _increment)

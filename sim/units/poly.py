@@ -175,5 +175,5 @@ def pixel_index(first: np.ndarray) -> np.ndarray:
 
 
 def cases() -> Iterator[Case]:
-    """All cases of ``rtl/poly`` but whole spans, which are checked by :func:`sim.units.check_poly_span`."""
+    """All cases of ``rtl/poly`` but whole spans, a stream."""
     return in_forms(_coef, _horner_step, _horner, _fdiff)

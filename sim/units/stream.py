@@ -50,7 +50,8 @@ class Stream:
 
     Where words cost credits, there are ``credits`` after reset; one pays for all words up to one in which the field
     ``record`` is 1; a word that waited for it comes ``wakes`` clocks behind it. ``valid``: of the words, by default
-    ``valid_o``; ``beside``: of the words beside them. ``through``: inputs from which a path leads to an output.
+    ``valid_o``; ``beside``: of the words beside them. ``apart``: an input that waits until an output says
+    that it was taken, apart from the others of its item. ``through``: inputs from which a path leads to an output.
 
     ``errors(inputs, given)``: of every word, against exact value and ideal, in ulp; 0 where there is none.
     """
@@ -74,6 +75,7 @@ class Stream:
     record: str = ""
     wakes: int = 0
     valid: str = ""
+    apart: tuple[str, str] = ("", "")
     beside: str = ""
     through: tuple[str, ...] = ()
     lengths: tuple[int, ...] = (1, 2, 3, 4, 5, 12)
@@ -102,14 +104,16 @@ class Stream:
         most = max(self.longest, 4)
         return np.where(rng.random(rows) < 0.5, rng.integers(1, 5, rows), rng.geometric(0.08, rows).clip(1, most))
 
-    def check(self, rows: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, kind=None) -> Result:
+    def check(
+        self, rows: int, seed: int = 1, in_gap: float = 0.0, out_stall: float = 0.0, kind=None, model=None
+    ) -> Result:
         """So many items through the RTL. ``latency`` is that of the first word, ``throughput`` in words a clock."""
         rng = np.random.default_rng([seed, 7])
         count = self.mixture(rng, rows)
         count[:2] = 3, max(self.longest, 3)  # the first word measures the latency
         inputs = self.items(rng, count, kind if kind is not None else self.kinds[0])
         given = self.golden(inputs)
-        model = sim.load(self.module, public=(), **self.parameters)
+        model = model or sim.load(self.module, public=(), **self.parameters)  # compiled once for both engines
         run = model.run(
             **inputs, in_gap=in_gap, out_stall=out_stall, seed=seed, pace=self.parameters.get("FOLD", 1)
         )  # fmt: skip
@@ -188,7 +192,7 @@ def _nodes(record: Arrays) -> np.ndarray:
     )
 
 
-def _poly_span(evaluator: int, form: str, **more: int) -> Stream:
+def poly_span(evaluator: int, form: str, **more: int) -> Stream:
     node_set = more.get("NODES", k.NODES_LEFT)
 
     def golden(i: Arrays) -> Given:
@@ -396,7 +400,7 @@ def _stretch() -> Stream:
 
     return Stream(
         "shade_stretch", {}, planned, golden, lambda i, given: 3 - np.bincount(given.owner),  # taken with its last word
-        through=("plan_i", "ready_i"),
+        through=("plan_i", "ready_i"), apart=("job_i", "job_taken_o"),
     )  # fmt: skip
 
 
@@ -421,7 +425,7 @@ def _node_walk(**parameters: int) -> Stream:
         "shade_node_walk", parameters, planned, golden,
         lambda i, _: k.LATENCY_NODE_WALK - i["plan_i.split"], kinds=(None, LIMITS), stride=fold,
         slack=fold - 1, steady=False, brisk=room > 2, credits=1 << room, record="node_o.place.last",
-        through=("valid_i", "plan_i"),
+        through=("valid_i", "plan_i"), apart=("job_i", "job_taken_o"),
     )  # fmt: skip
 
 
@@ -560,10 +564,10 @@ SMALL = {"REFLECT": 0, "DIVIDE": 0}
 
 def streams() -> Iterator[Stream]:
     """All of them; tests take the first two points of a module by default."""
-    yield from (_poly_span(k.EVALUATOR_HORNER, "refined"), _poly_span(k.EVALUATOR_FDIFF, "paper"))
-    yield from (_poly_span(k.EVALUATOR_HORNER, "paper"), _poly_span(k.EVALUATOR_FDIFF, "refined"))
-    yield _poly_span(k.EVALUATOR_HORNER, "paper", NODES=k.NODES_RIGHT)
-    yield _poly_span(k.EVALUATOR_FDIFF, "paper", NODES=k.NODES_RIGHT, LOG2_MAX=6)
+    yield from (poly_span(k.EVALUATOR_HORNER, "refined"), poly_span(k.EVALUATOR_FDIFF, "paper"))
+    yield from (poly_span(k.EVALUATOR_HORNER, "paper"), poly_span(k.EVALUATOR_FDIFF, "refined"))
+    yield poly_span(k.EVALUATOR_HORNER, "paper", NODES=k.NODES_RIGHT)
+    yield poly_span(k.EVALUATOR_FDIFF, "paper", NODES=k.NODES_RIGHT, LOG2_MAX=6)
     yield from (_span_walk(), _span_walk(LOG2_MAX=6, CREDIT_LOG2=2), _walk(), _walk(COUNT_W=4, CREDIT_LOG2=1))
     yield from (pixel_normals(), _pixel_points(), _stretch())
     yield from (_node_walk(), _node_walk(CREDIT_LOG2=1), _node_walk(FOLD=6), _line(), _line(FOLD=6))
@@ -579,7 +583,7 @@ def measured() -> dict[str, Stream]:
     found = {}
     for form in FORMS:
         for evaluator, point in ((k.EVALUATOR_HORNER, ""), (k.EVALUATOR_FDIFF, f"[EVALUATOR={k.EVALUATOR_FDIFF}]")):
-            found[f"shade_poly_span{point}/{form}"] = _poly_span(evaluator, form)
+            found[f"shade_poly_span{point}/{form}"] = poly_span(evaluator, form)
     papers = range(k.VARIANT_V1, k.VARIANT_V6 + 1)
     found["shade_pixel_normals/refined"] = pixel_normals([k.VARIANT_REFINED])
     return found | {"shade_pixel_normals/paper": pixel_normals(papers)}

@@ -84,8 +84,8 @@ class Run:
             (column,) = self.bench.columns(draw)
             column.port.value = column.rows[0]
         moving = {name: v for name, v in self.inputs.items() if not name.startswith("draw_i.")}
-        rows = {
-            c.port._name: [bits | random.getrandbits(len(c.port)) & ~c.mask for bits in c.rows]  # any bits without a meaning
+        rows = {  # bits without a meaning are random
+            c.port._name: [bits | random.getrandbits(len(c.port)) & ~c.mask for bits in c.rows]
             for c in self.bench.columns(moving)
         }  # fmt: skip
         self.waiting = deque(rows.get(STREAM.apart[0], ()))

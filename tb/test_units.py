@@ -50,7 +50,10 @@ def at_points() -> Iterator[tuple]:
 
 
 def streams_at_points(slow: bool) -> Iterator[tuple]:
-    """Every stream, or those that NumPy runs, which knows no credits; from the third of a module on they are left to ``make test-all``."""
+    """Every stream, or those that NumPy runs, which knows no credits.
+
+    From the third of a module on they are left to ``make test-all``.
+    """
     numbers: dict[str, int] = {}
     for stream in streams():
         numbers[stream.module] = number = numbers.get(stream.module, 0) + 1

@@ -66,6 +66,11 @@ CASES = {
     "shade_fifo.u_stable": (
         "shade_fifo", {}, {"data_i": np.arange(99), "out_stall": 0.5}, ("= !valid_o || ready_i;", "= 1'b1;"),
     ),
+    "shade_widen.u_stable": (
+        "shade_widen", {"IN_W": 8, "OUT_W": 16},
+        {"s_axis_word_tdata": np.arange(99), "s_axis_word_tlast": 0, "out_stall": 0.5, "patience": 50},
+        ("m_axis_beat_tvalid <= m_axis_beat_tvalid ? !m_axis_beat_tready : ends;", "m_axis_beat_tvalid <= ends;"),
+    ),
     "shade_walk.u_empty": ("shade_walk", {}, {"count_i": [1, 0], "credit_i": 0}, ()),
     "shade_credit.u_overflow, in a walk": ("shade_walk", {}, {"count_i": 1, "credit_i": 1}, ()),
     "shade_walk.u_empty, of a record": ("shade_span_walk", {}, {"record_i": RECORD_OF["none"], "credit_i": 0}, ()),

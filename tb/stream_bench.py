@@ -178,7 +178,7 @@ async def throughput(bench: Bench) -> None:
 async def longest(bench: Bench, stall: float) -> None:
     """The longest item between short ones; nothing is lost while the taker pauses."""
     run, most = Run(bench, stall), STREAM.longest
-    for kind in USUAL if most else ():
+    for kind in USUAL[: 1 if stall else None] if most else ():
         await run.source.send(run.begin([2, most, *([most - 1, most // 2 + 2] if most < 100 else []), 3], kind))
         await run.compare()
         if not stall and STREAM.brisk:

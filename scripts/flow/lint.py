@@ -81,7 +81,7 @@ def items() -> Iterator[Item]:
             yield Item(f"refused {label(module, point)}", partial(refused, module, point))
         for number, point in enumerate(points(module)):
             yield Item(f"verilator {label(module, point)}", partial(verilator, module, point))
-            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point), number > 1)
+            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point), number > 0)
 
 
 def comparisons() -> dict[str, Path]:

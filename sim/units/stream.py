@@ -518,7 +518,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         pixels, kept = 1 << k.FIFO_LOG2, 1 << k.RECORD_FIFO_LOG2
         if normals(kind[0]):
             return (pixels + 1 + kept + (1 << k.NORMAL_FIFO_LOG2)) // n + 1
-        return pixels // n + 1 + kept + 3 + (1 << k.SPAN_FIFO_LOG2)
+        return pixels // n + 1 + kept + 2 + (1 << k.SPAN_FIFO_LOG2)
 
     return Stream(
         "shade_lane", more if form == "refined" else {"FORM": FORMS[form]} | more, items, golden, latency,

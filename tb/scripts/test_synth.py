@@ -30,7 +30,7 @@ def fast(name: str) -> dict[str, float]:
 
 # what is made of many modules takes minutes: those are left to make synth
 UNITS = [design for design in synth.designs() if design.module in synth.modules() and len(design.files) < 20]
-SMALL = 8  # files; what has more, or is a variant, is left to make test-all
+SMALL = 4  # files; what has more, or is a variant, is left to make test-all
 
 
 @pytest.mark.parametrize(
@@ -57,6 +57,7 @@ def test_coefficients_against_the_naive_form() -> None:
     assert ours["lut"] <= naive["lut"]
 
 
+@pytest.mark.full
 def test_horner_against_a_bare_multiplier() -> None:
     """shade_horner_pipe: at least 0.8 of the clock rate of a registered 18 x 18 multiplier."""
     assert fast("shade_horner_pipe")["fmax_mhz"] >= 0.8 * fast("yardstick_multiplier")["fmax_mhz"]

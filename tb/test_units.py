@@ -42,7 +42,7 @@ def of_all() -> Iterator[tuple]:
 def at_points() -> Iterator[tuple]:
     """Every module at every point of its cases; those between the first and the last are left to ``make test-all``."""
     found = {}
-    for case, number, count in ranked([case for case in CASES if not case.ordered], "module"):
+    for case, number, count in ranked([case for case in CASES if not case.own_bench], "module"):
         marks = pytest.mark.full if 0 < number < count - 1 else ()
         name = label(case.module, case.parameters)
         found[name] = pytest.param(case.module, case.parameters, id=name, marks=marks)

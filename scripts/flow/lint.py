@@ -147,7 +147,7 @@ def mirror(module: str, path: Path) -> list[str]:
 @functools.cache
 def tested() -> set[str]:
     """The modules that have a case or a stream, which is run by every engine."""
-    return {case.module for case in cases() if not case.ordered} | {stream.module for stream in streams()}
+    return {case.module for case in cases() if not case.own_bench} | {stream.module for stream in streams()}
 
 
 def verilator(module: str, point: Point) -> list[str]:

@@ -295,7 +295,7 @@ def by_stream(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int
 def by_bench(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]:
     """The mutants that a cocotb bench kills."""
     tests = [target.bench] if target.bench else []
-    if any(not case.ordered for case in target.cases):
+    if any(not case.own_bench for case in target.cases):
         tests.insert(0, f"tb/test_units.py::test_cocotb[{label(target.top, target.point)}]")
 
     def passes(mutant: int) -> bool:
@@ -425,7 +425,7 @@ def engines(target: Target, bench: bool) -> list[Callable[[Netlist, list[int]], 
         found += [lambda faults, alive, v=v: by_cases(target, faults, alive, v) for v in VECTORS]
     if target.top in STREAMS:
         found.append(lambda faults, alive: by_stream(target, faults, alive))
-    if bench and (target.bench or any(not case.ordered for case in target.cases)):
+    if bench and (target.bench or any(not case.own_bench for case in target.cases)):
         found.append(lambda faults, alive: by_bench(target, faults, alive))
     return found
 

@@ -61,9 +61,9 @@ class Case:
     ``vectors(rng, rows)`` makes random inputs, ``all_vectors`` yields every input. ``latency``: declared; of every
     single vector. ``bound``: of the error against ``exact`` in ulp, in the paper's form at least 1/2; rounding to
     nearest: 1/2. ``late``: inputs that are taken so many clocks after the others. ``ordered``: an output depends on the
-    vectors before. ``unit_f``: fraction bits of the outputs, ``more_f``: of those ports that have others. ``chunk``:
-    vectors a run, for inputs that are constant in it: settings, which change while nothing is in flight. ``note``: what
-    sets apart cases of the same point.
+    vectors before. ``own_bench``: cocotb does not run it, as the module's bench does more. ``unit_f``: fraction bits of
+    the outputs, ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in
+    it: settings, which change while nothing is in flight. ``note``: what sets apart cases of the same point.
     """
 
     module: str
@@ -79,6 +79,7 @@ class Case:
     bound: float = 1 / 2
     late: Mapping[str, int] = field(default_factory=dict)
     ordered: bool = False
+    own_bench: bool = False
     unit_f: int = k.INTENSITY_F
     more_f: dict[str, int] = field(default_factory=dict)
     chunk: int = CHUNK
@@ -139,6 +140,7 @@ class Case:
         for inputs in itertools.islice(self.all_vectors(), 8):
             total = len(next(iter(inputs.values())))
             index = np.r_[: min(8, total), rng.integers(0, total, rows // 4), max(total - 8, 0) : total]
+            index = np.arange(min(rows, total)) if self.ordered else index
             yield {name: value[index] for name, value in inputs.items()}
 
     def _delayed(self, inputs: Arrays) -> Arrays:

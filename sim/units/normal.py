@@ -354,6 +354,32 @@ def _increment(form: str) -> Iterator[Case]:
     yield Case("shade_increment", form, {}, golden, exact, exact, vectors, None, k.LATENCY_INCREMENT, ordered=True)
 
 
+def _factor(form: str) -> Iterator[Case]:
+    """By what a middle normal is multiplied: every variant, thresholds around the estimates and outside of [0, 1]."""
+    if form != "paper":
+        return
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        a, other = rng.standard_normal((2, 3, rows))
+        b = a + other * rng.choice([0, 0.01, 0.3, 2], rows)
+        pair = {}
+        for name, v in (("a_i", a), ("b_i", b)):
+            pair |= dict(zip(_axes(name), np.rint(v / np.linalg.norm(v, axis=0) * ONE).astype(np.int64), strict=True))
+        outside = rng.choice([-1, ONE, ONE + 1], rows)
+        threshold = np.where(rng.random(rows) < 0.2, outside, rng.integers(0, ONE, rows))
+        choice = mixed({"middle": (0, 1), "variant": (0, 7), "needs_d1": (0, 1)})(rng, rows) | {"threshold": threshold}
+        return pair | {f"choice_i.{name}": value for name, value in choice.items()}
+
+    def golden(i: Arrays) -> Arrays:
+        a, b = (np.stack([i[name] for name in _axes(port)]) for port in ("a_i", "b_i"))
+        choice = (i[f"choice_i.{name}"] for name in ("middle", "variant", "needs_d1", "threshold"))
+        return {"factor_o": normal.factor(a, b, *choice)}
+
+    yield Case(
+        "shade_factor", form, {}, golden, golden, golden, vectors, None, k.LATENCY_FACTOR_S, bound=0, unit_f=k.INVC_F
+    )
+
+
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/normal`` but whole lines, a stream."""
-    return in_forms(_normalize, _unit, _vectors, _cosines, _nodes, _metric, _increment)
+    return in_forms(_normalize, _unit, _vectors, _cosines, _nodes, _metric, _factor, _increment)

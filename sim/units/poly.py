@@ -131,22 +131,43 @@ def _fdiff(form: str) -> Iterator[Case]:
     if form != "refined":
         return
 
+    names = [*(f"{n}_i" for n in "abcd"), "log2_i"]
+
+    def held(i: Arrays) -> tuple[list[np.ndarray], np.ndarray]:
+        """What was taken with the first pixel of a segment, and the number of the pixel in it."""
+        j = pixel_index(i["first_i"])
+        return [i[name][np.arange(len(j)) - j] for name in names], j
+
     def golden(i: Arrays) -> Arrays:
-        return {"y_o": poly.fdiff(*(i[f"{n}_i"] for n in "abcd"), i["log2_i"], pixel_index(i["first_i"]))}
+        taken, j = held(i)
+        return {"y_o": poly.fdiff(*taken, j)}
 
     def exact(i: Arrays) -> Arrays:
-        t = np.ldexp(pixel_index(i["first_i"]).astype(Real), -i["log2_i"])
-        return {"y_o": ((i["a_i"] * t + i["b_i"]) * t + i["c_i"]) * t + i["d_i"]}
+        (a, b, c, d, log2), j = held(i)
+        t = np.ldexp(j.astype(Real), -log2)
+        return {"y_o": ((a * t + b) * t + c) * t + d}
+
+    ranges = {f"{n}_i": signed_range(k.COEF_W) for n in "abc"} | {"d_i": signed_range(k.INTENSITY_W)}
+    ranges |= {"log2_i": (0, 15)}
 
     def random(rng: np.random.Generator, rows: int) -> Arrays:
-        log2 = rng.integers(0, k.LOG2_MAX, rows // 2 + 1, endpoint=True)
-        log2[0] = k.LOG2_MAX  # the longest segment, whole
-        count = (1 << log2) + 1
+        """Whole segments and parts of them, the longest that fits first; behind a first pixel inputs are random."""
+        most = min(k.LOG2_MAX, max(rows // 4, 1).bit_length())
+        log2 = rng.integers(0, most, rows // 2 + 1, endpoint=True)
+        count = np.where(
+            rng.random(len(log2)) < 0.5, (1 << log2) + 1, rng.integers(1, 12, len(log2)).clip(max=(1 << log2) + 1)
+        )
+        log2[0], count[0] = most, (1 << most) + 1
         count = count[np.cumsum(count) <= rows]
         count = np.r_[count, np.ones(rows - count.sum(), int)]
         log2 = np.resize(log2, len(count))
-        ranges = {f"{n}_i": signed_range(k.COEF_W) for n in "abc"} | {"d_i": signed_range(k.INTENSITY_W)}
-        return spread(mixed(ranges)(rng, len(count)) | {"log2_i": log2}, count)
+        segments = spread(mixed(ranges)(rng, len(count)) | {"log2_i": log2}, count)
+        noise = mixed(ranges)(rng, rows)
+        return segments | {name: np.where(segments["first_i"], segments[name], noise[name]) for name in names}
+
+    def single(rng: np.random.Generator, rows: int) -> Arrays:
+        """A segment on every pixel."""
+        return mixed(ranges | {"log2_i": (0, k.LOG2_MAX)})(rng, rows) | {"first_i": np.ones(rows, np.int64)}
 
     def all_of() -> Iterator[Arrays]:
         ranges = {f"{n}_i": signed_range(4) for n in "abcd"} | {"log2_i": (0, 3)}
@@ -154,6 +175,7 @@ def _fdiff(form: str) -> Iterator[Case]:
             yield spread(part, (1 << part["log2_i"]) + 1)
 
     yield Case("shade_fdiff", form, {}, golden, exact, exact, random, None, k.LATENCY_FDIFF, ordered=True)
+    yield Case("shade_fdiff", form, {}, golden, exact, exact, single, None, k.LATENCY_FDIFF, note="single pixels")
     yield Case(
         "shade_fdiff", form, {"COEF_W": 4, "D_W": 4, "LOG2_MAX": 3}, golden, exact, exact, None, all_of,
         k.LATENCY_FDIFF, ordered=True,

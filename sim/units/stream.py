@@ -594,5 +594,5 @@ def cases() -> Iterator[Case]:
     same = lambda i: {"data_o": i["data_i"]}  # noqa: E731
     yield Case(
         "shade_fifo", "refined", {}, same, same, same, mixed({"data_i": (0, (1 << 32) - 1)}), None, k.LATENCY_FIFO,
-        bound=0, unit_f=0, ordered=True,
+        bound=0, unit_f=0, ordered=True, own_bench=True,
     )  # fmt: skip

@@ -10,7 +10,6 @@ from polyshade.golden.fixed import round
 from polyshade.golden.poly import horner
 
 from tb.bench import TRAFFIC, Bench, checked, patterns
-from tb.poly.vectors import parameters_t, polynomials
 from tb.runner import points, simulate
 
 
@@ -44,7 +43,9 @@ def steps(a, b, c, d, t, t_f: int) -> Iterator[dict[str, np.ndarray]]:
 async def values(bench: Bench, gap: float, reset: float) -> None:
     """Every signal of the table on every clock; 6 clocks a value, not one more; what comes meanwhile is ignored."""
     dut, rows, t_f = bench.dut, 250, bench.parameter("T_F")
-    inputs = {**polynomials(bench, rows), "t_i": parameters_t(bench, t_f, rows)}
+    widths = dict.fromkeys(("a_i", "b_i", "c_i"), bench.parameter("COEF_W")) | {"d_i": bench.parameter("D_W")}
+    inputs = {name: bench.signed(width, rows) for name, width in widths.items()}
+    inputs["t_i"] = bench.rng.integers(-8, (1 << t_f) + 8, rows).clip(0, 1 << t_f)
     bits = {name: patterns(getattr(dut, name), column) for name, column in inputs.items()}
     y = patterns(dut.y_o, horner(*inputs.values(), t_f=t_f))
     table = [

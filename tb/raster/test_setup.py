@@ -8,8 +8,8 @@ import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import raster as golden
 
-from tb.bench import PRESSURE, Bench, Sink, Source, checked
-from tb.raster.streams import Watch, fields, word
+from tb.bench import PRESSURE, Bench, Sink, Source, Watch, checked
+from tb.raster.streams import fields, word
 from tb.raster.vectors import edges, mixture
 from tb.runner import points, simulate
 

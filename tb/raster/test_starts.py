@@ -8,8 +8,8 @@ import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import raster as golden
 
-from tb.bench import Bench, Source, checked
-from tb.raster.streams import Watch, fields, word
+from tb.bench import Bench, Source, Watch, checked
+from tb.raster.streams import fields, word
 from tb.raster.vectors import mixture
 from tb.runner import points, simulate
 

@@ -93,12 +93,23 @@ REPORTS: dict[str, tuple[str, Callable]] = {  # part of the extract: report in b
 }
 
 
-def extract(figures: Figures, build: Path = BUILD) -> Figures:
-    """The extract, with the parts renewed whose report is there."""
+def extract(figures: Figures, build: Path = BUILD, told: Callable[[str], None] = print) -> Figures:
+    """The extract, with the parts renewed whose report is there; ``told`` which are not, or hold a part of it."""
     for part, (name, take) in REPORTS.items():
-        if (build / name).exists():
-            figures = figures | {part: rounded(take(json.loads((build / name).read_text())))}
+        if not (build / name).exists():
+            told(f"build/{name}: not there, its tables stay as they are: {command(part)}")
+            continue
+        made, before = rounded(take(json.loads((build / name).read_text()))), figures.get(part, ())
+        if 2 * len(made) < len(before):  # of a run that was asked for a few modules
+            told(f"build/{name}: {len(made)} of {len(before)} entries, its tables stay as they are: {command(part)}")
+            continue
+        figures = figures | {part: made}
     return figures
+
+
+def command(part: str) -> str:
+    """By what a report is made."""
+    return "polyshade gallery" if part == "gallery" else f"make {part}"
 
 
 # ---- tables --------------------------------------------------------------------------------------------------------
@@ -245,8 +256,7 @@ def filled(text: str, figures: Figures) -> str:
 
     def block(match: re.Match) -> str:
         part, made = TABLES[match[2]]
-        command = "polyshade gallery" if part == "gallery" else f"make {part}"
-        missing = "" if match[2].startswith("short_") else f"Not measured yet: `{command}`, then `make tables`.\n"
+        missing = "" if match[2].startswith("short_") else f"Not measured yet: `{command(part)}`, then `make tables`.\n"
         body = made(figures) if part in figures else missing
         return f"{match[1]}{body}{match[3]}"
 

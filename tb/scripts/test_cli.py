@@ -922,7 +922,7 @@ def test_process_in_another_cache(tmp_path: Path) -> None:
     for _ in range(2):
         done = subprocess.run(
             [sys.executable, "-c", point], cwd=ROOT, env={**os.environ, "POLYSHADE_CACHE": str(cache)},
-            capture_output=True, text=True, timeout=300,
+            capture_output=True, text=True, timeout=HANGS,
         )  # fmt: skip
         assert (done.stdout, done.stderr) == ("[1, 2]\n", "")
         for lock in cache.glob("*.lock"):
@@ -954,7 +954,7 @@ sys.argv = ["polyshade", "render", "--size", "16", "--out", {str(tmp_path / "out
 from polyshade.scripts import start
 start.main()
 """
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=HANGS)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "polyshade: interrupted\n")
     assert listing(tmp_path) == {}
 
@@ -975,7 +975,7 @@ batch.distributed.as_completed = watched
 start.main()
 """
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=300, start_new_session=True
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=HANGS, start_new_session=True
     )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "polyshade: interrupted\n")
     assert listing(tmp_path) == {}

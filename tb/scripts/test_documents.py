@@ -98,3 +98,13 @@ def test_every_table_is_made(tmp_path: Path) -> None:
         assert ("Not measured yet" in tables.filled(text, {})) == (not name.startswith("short_"))
     shown = tables.filled("<!-- table: machines -->\n<!-- end -->", figures)
     assert "| patch, 4 lanes, 6 models, 4 lights | 1 | 2 | 3 | 150 | 0.950 | – | 0.20 | 1.0e-7 | 2.5e-6 |" in shown
+
+
+def test_reports_that_are_not_there(tmp_path: Path) -> None:
+    """A line for each; what the documents show stays, also when a report holds a few modules only."""
+    before, lines = {"synth": {key: {} for key in "abc"}, "formal": {"m": {}}}, []
+    (tmp_path / "synth.json").write_text(json.dumps(REPORTS["synth"]))
+    assert tables.extract(before, tmp_path, lines.append) == before
+    assert "build/synth.json: 1 of 3 entries, its tables stay as they are: make synth" in lines
+    assert "build/gallery/report.json: not there, its tables stay as they are: polyshade gallery" in lines
+    assert len(lines) == len(tables.REPORTS)

@@ -16,6 +16,8 @@ from PIL import Image
 from polyshade.scripts.drawings import page
 from polyshade.sim.sources import modules
 
+from tb.runner import HANGS
+
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 VOID = {"meta", "img", "input", "br", "link", "hr", "use", "path", "rect"}
 MACHINE = {"lut": 100, "ff": 90, "dsp": 3, "bram": 0, "fmax_mhz": 150.0, "pixels_per_clock": {"head1024": 0.9}}
@@ -163,8 +165,8 @@ def test_in_a_browser(whole: str, tmp_path: Path, width: int) -> None:
             "</script>"
         )
         address, options = outer.as_uri(), [*options, "--allow-file-access-from-files"]
-    dom = subprocess.run([*options, "--dump-dom", address], capture_output=True, text=True, timeout=300).stdout
+    dom = subprocess.run([*options, "--dump-dom", address], capture_output=True, text=True, timeout=HANGS).stdout
     assert re.search(r"<title>true inset\(0px 75% 0px 0px\) true 4</title>", dom), dom[:2000]
     shot = tmp_path / "shot.png"
-    subprocess.run([*options, f"--screenshot={shot}", path.as_uri()], capture_output=True, timeout=300, check=True)
+    subprocess.run([*options, f"--screenshot={shot}", path.as_uri()], capture_output=True, timeout=HANGS, check=True)
     assert np.unique(np.asarray(Image.open(shot).convert("L"))).size > 20

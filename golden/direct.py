@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 
 from . import contract as k
 from . import types
-from .fixed import Int, integers, saturate, wrap
+from .fixed import Int, integers, limit, saturate, wrap
 from .stream import walk
 
 VECTOR_F = 2 * k.INTENSITY_F  # fraction bits of a product of two components
@@ -99,10 +99,10 @@ def step(found: Coefficients, i: ArrayLike, j: ArrayLike) -> tuple[Int, Int, Int
 
 @cache
 def rho_table() -> Int:
-    """(128, 3): c0, c1, c2: 1/sqrt(P) - 1 = c0 + c1 d + c2 d^2 for P in [i/128, (i + 1)/128), d = P - middle.
+    """(256, 3): c0, c1, c2: 1/sqrt(P) - 1 = c0 + c1 d + c2 d^2 for P in [i/128, (i + 1)/128), d = P - middle.
 
-    Through the three Chebyshev nodes of each segment. Row 0 belongs to [1, 129/128); rows 1 to 31, of normals shorter
-    than 1/2, hold the largest number below 1, which no other row exceeds.
+    Through the three Chebyshev nodes of each segment. Rows 0 to 31, of normals shorter than 1/2, hold the largest
+    number below 1, which no other row exceeds.
     """
     bits = 60
     node = Fraction(1, 256) * Fraction(866025403784438647, 10**18)  # cos 30 degrees
@@ -113,12 +113,12 @@ def rho_table() -> Int:
     largest = (1 << k.RHO_F) - (1 << k.RHO_F - k.DIRECT_RHO_F)
     table = np.zeros((1 << k.RHO_INDEX_W, 3), np.int64)
     for i in range(1 << k.RHO_INDEX_W):
-        middle = Fraction(2 * i + 1, 256) + (i == 0)
+        middle = Fraction(2 * i + 1, 256)
         low, centre, high = (rho(middle + d) for d in (-node, Fraction(0), node))
         c1, c2 = (high - low) / (2 * node), (high - 2 * centre + low) / (2 * node * node)
         fractions = zip((centre, c1, c2), (k.RHO_F, k.RHO_C1_F, k.RHO_C2_F), strict=True)
         table[i] = [int((c * (1 << f) + Fraction(1, 2)).__floor__()) for c, f in fractions]
-    table[1:32] = largest, 0, 0
+    table[:32] = largest, 0, 0
     table[32, 0] -= 1 << k.RHO_F - k.DIRECT_RHO_F  # P = 1/4 would be 1
     return table
 
@@ -134,14 +134,14 @@ def rho_rom(i: ArrayLike) -> Int:
 def rho(p: ArrayLike) -> tuple[Int, Int, Int]:
     """(rho, short, long): 1/sqrt(P) - 1, S0.25, of P U1.25 (``shade_rho``).
 
-    short: P < 1/4, rho is then almost 1; long: P >= 129/128, rho is then none. Error
-    below 3 ulp for P >= 1/2, below 20 for P >= 33/128, next to P = 1/4 2^-17.
+    short: P < 1/4, rho is then almost 1; long: P >= 129/128. Error below 3 ulp
+    for P >= 1/2, below 20 for P >= 33/128, next to P = 1/4 2^-17.
 
     >>> [int(v) for v in rho(1 << 24)]  # P = 1/2
     [13898696, 0, 0]
     """
     (p,) = integers(p)
-    low = k.DIRECT_P_OUT_F - k.RHO_INDEX_W
+    low = k.DIRECT_P_OUT_F + 1 - k.RHO_INDEX_W
     c0, c1, c2 = np.moveaxis(rho_table()[p >> low & (1 << k.RHO_INDEX_W) - 1], -1, 0)
     d = (p & (1 << low) - 1) - (1 << low - 1)
     s = c1 + (c2 * d + (1 << k.RHO_S_DROP - 1) >> k.RHO_S_DROP)
@@ -169,18 +169,24 @@ def light(a: ArrayLike, h: ArrayLike, p: ArrayLike, lobe: Lobe) -> tuple[Int, In
     with 16, all cut.
     """
     a, h, p = integers(a, h, p)
-    r, short, long = rho(p >> k.DIRECT_P_F - k.DIRECT_P_OUT_F)
+    p = p >> k.DIRECT_P_F - k.DIRECT_P_OUT_F
+    near = a >> k.DIRECT_A_F - k.DIRECT_DIFFUSE_F
+    diffuse, specular, short = scalar_light(near, h >> k.DIRECT_H_F - k.DIRECT_X_F, p, lobe)
+    return saturate(diffuse, k.PIXEL_W), specular, short, rho(p)[2]
+
+
+def scalar_light(a: Int, h: Int, p: Int, lobe: Lobe) -> tuple[Int, Int, Int]:
+    """(diffuse S1.16, specular U0.16, short) from N.L S1.17, N.H S1.24, N.N U1.25 (``shade_scalar_light``)."""
+    r, short, _ = rho(p)
     factor = r >> k.RHO_F - k.DIRECT_RHO_F
-    a = a >> k.DIRECT_A_F - k.DIRECT_DIFFUSE_F
     grown = (a >> k.DIRECT_DIFFUSE_F - k.INTENSITY_F) * factor
     total = a + (grown >> k.INTENSITY_F + k.DIRECT_RHO_F - k.DIRECT_DIFFUSE_F)
     drop = k.DIRECT_DIFFUSE_F - k.PIXEL_W
-    diffuse = saturate(total + (1 << drop - 1) >> drop, k.PIXEL_W)
-
-    y = wrap((1 << k.DIRECT_H_F) - 1 - h, k.DIRECT_H_F + 1) >> k.DIRECT_H_F - k.DIRECT_X_F
+    diffuse = limit(total + (1 << drop - 1) >> drop)
+    y = wrap((1 << k.DIRECT_X_F) - 1 - h, k.DIRECT_X_F + 1)
     bent = wrap(y >> k.DIRECT_X_F - k.DIRECT_RHO_F, k.DIRECT_RHO_F + 1) * factor
     x = y - (r >> k.RHO_F - k.DIRECT_X_F) + (bent >> 2 * k.DIRECT_RHO_F - k.DIRECT_X_F) + lobe.excess
-    return diffuse, chord(np.where(h < 0, 1 << k.DIRECT_X_F, x), lobe), short, long
+    return diffuse, chord(np.where(h < 0, 1 << k.DIRECT_X_F, x), lobe), short
 
 
 def chord(x: ArrayLike, lobe: Lobe) -> Int:

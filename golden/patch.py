@@ -14,22 +14,20 @@ exactly where it is a parabola: C in the middle, E at (1/2, 0), A, B, F, G at (1
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isqrt, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import contract as k
-from .fixed import Int, integers, limit, round, rsqrt, saturate, wrap
-from .material import Material, light_registers
-from .normal import dot3
+from . import direct
+from .direct import Lobe
+from .fixed import Int, integers, limit, saturate, wrap
+from .material import Material, chords, light_registers
 from .reference.light import sharpness
 from .stream import walk
-
-Words = Mapping[str, int]
 
 
 def norm(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Int:
@@ -40,6 +38,19 @@ def norm(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Int:
     """
     x, y, z = (np.abs(part) for part in integers(x, y, z))
     return x + y + z + np.maximum(np.maximum(x, y), z) >> 1
+
+
+class Settings(NamedTuple):
+    """Of a draw call. ``l``, ``h`` (L, 3) of L lights, S1.16; ``excess`` (L,): |H| - 1 of the quantized H, S-15.24.
+
+    ``radius`` U0.16, ``reach`` U3.16: see :func:`plan`.
+    """
+
+    l: Int  # noqa: E741
+    h: Int
+    excess: Int
+    radius: int
+    reach: int
 
 
 class Triangles(NamedTuple):
@@ -61,48 +72,41 @@ class Triangles(NamedTuple):
     count: Int
 
 
-def times(count: Int, mantissa: Int, exp: Int) -> Int:
-    """count mantissa 2^-exp, 18 fraction bits, floor; of count the lower exp + 2 bits: no box has more."""
-    return ((count & (4 << exp) - 1) * (mantissa << k.PATCH_PLAN_F - k.INTENSITY_F)) >> exp
+def part(halves: Int, exp: Int) -> Int:
+    """So many half pixels times 2^-exp, S2.15, floor: what increments are multiplied by."""
+    return wrap(halves << k.PATCH_PART_F - 1 >> exp, k.INTENSITY_W)
 
 
-def corners(t: Triangles) -> Int:
-    """(T, 3): the normal in the upper left pixel of a triangle's box, S3.18, and half an ulp of S1.16."""
-    left = times(t.box[:, 2:], t.dcolumn, t.dcolumn_exp[:, None])
-    up = k.PATCH_PLAN_F - k.INTENSITY_F
-    return (t.normal << up) + (1 << up - 1) - left
-
-
-def plan(t: Triangles, words: Words) -> tuple[Int, Int, Int]:
+def plan(t: Triangles, words: Settings) -> tuple[Int, Int, Int]:
     """(kx, ky, direct) of triangles (T,): boxes of 2^kx by 2^ky pixels; direct: light at every pixel.
 
     A box is as large as the length of the way of the normal from its middle to a corner allows: at most ``radius``,
     sqrt(2 T / n). Where the highlight is far from the whole triangle, by ``reach``, 3/2 and 7/4 of it, the radius is 2,
-    4 and 8 times as large, but never larger than PATCH_RADIUS: kappa weighed by the light. (``shade_patch_way``,
-    ``shade_patch_plan``)
+    4 and 8 times as large, but never larger than PATCH_RADIUS: kappa weighed by the light; of several lights the
+    nearest highlight counts. (``shade_patch_far``, ``shade_patch_plan``)
     """
-    up = k.PATCH_PLAN_F - k.INTENSITY_F
-    columns, lines = t.box[:, 0], t.box[:, 1]
-    across = times(columns[:, None], t.dcolumn, t.dcolumn_exp[:, None])
-    down = times(lines[:, None], t.dline, t.dline_exp[:, None])
-    h = np.array([words[f"h{c}"] for c in "xyz"]) << up
-    a, b = norm(*t.dcolumn.T), norm(*t.dline.T)
-    half = times(columns, a, t.dcolumn_exp) + times(lines, b, t.dline_exp) >> 1
-    away = norm(*(corners(t) + (across + down >> 1) - h).T) - half
-    reach = words["reach"] << up
-    limits = reach, reach + (reach >> 1), 2 * reach - (reach >> 2)
-    radius = words["radius"] << sum((away >= limit).astype(np.int64) for limit in limits)
-    radius = np.minimum(radius, k.PATCH_RADIUS) << up
-    a, b = (a << up >> t.dcolumn_exp) << 1, (b << up >> t.dline_exp) << 1
+    f, cut = k.PATCH_PART_F, k.INTENSITY_F - k.PATCH_PLAN_F
+    columns, lines, left = t.box.T
+    ec, el = t.dcolumn_exp, t.dline_exp
+    middle = t.normal + (t.dcolumn * part(columns - 2 * left, ec)[:, None] >> f)
+    middle = middle + (t.dline * part(lines, el)[:, None] >> f)
+    away = np.min([norm(*(middle - h).T) for h in words.h], axis=0)
+    a, b = norm(*t.dcolumn.T) >> cut, norm(*t.dline.T) >> cut
+    far = away - (a * part(columns, ec) >> f - cut) - (b * part(lines, el) >> f - cut)
+    limits = np.cumsum([words.reach, words.reach >> 1, words.reach >> 2])
+    radius = words.radius << sum((far >= most).astype(np.int64) for most in limits)
+    radius = np.minimum(radius, k.PATCH_RADIUS) >> cut
+    most = (1 << k.PATCH_PLAN_F) - 1
+    a, b = (np.minimum(v * part(np.int64(4), e) >> f, most) for v, e in ((a, ec), (b, el)))
     kx = ky = np.full(len(a), k.PATCH_LOG2_MIN)
-    direct = way(a, b) > radius
+    curved = way(a, b) > radius
     for _ in range(2 * (k.PATCH_LOG2_MAX - k.PATCH_LOG2_MIN)):
-        x_fits = (kx < k.PATCH_LOG2_MAX) & (columns > 1 << kx) & (way(2 * a, b) <= radius)
-        y_fits = (ky < k.PATCH_LOG2_MAX) & (lines > 1 << ky) & (way(a, 2 * b) <= radius)
+        x_fits = (kx < k.PATCH_LOG2_MAX) & (columns > 1 << kx) & (kx < ec + 2) & (way(2 * a, b) <= radius)
+        y_fits = (ky < k.PATCH_LOG2_MAX) & (lines > 1 << ky) & (ky < el + 2) & (way(a, 2 * b) <= radius)
         grow_x = x_fits & ((a <= b) | ~y_fits)
         grow_y = y_fits & ~grow_x
         kx, ky, a, b = kx + grow_x, ky + grow_y, a << grow_x, b << grow_y
-    return kx, ky, direct.astype(np.int64)
+    return kx, ky, curved.astype(np.int64)
 
 
 def way(a: Int, b: Int) -> Int:
@@ -110,36 +114,80 @@ def way(a: Int, b: Int) -> Int:
     return np.maximum(a, b) + (np.minimum(a, b) >> 1)
 
 
-def light(a: ArrayLike, h: ArrayLike, p: ArrayLike, words: Words, table: Int) -> tuple[Int, Int, Int]:
-    """(diffuse, specular, flags) from N.L, N.H and N.N, S4.24, of an interpolated normal N (``shade_patch_light``).
+def middles(t: Triangles, kx: Int, ky: Int) -> tuple[Int, Int]:
+    """The normals (T, 3), S1.16, in the middle of the box of the reference pixel, and which do not fit: saturated."""
+    f, left = k.PATCH_PART_F, t.box[:, 2] & (1 << kx) - 1
+    right = t.dcolumn * part((1 << kx) - 2 * left, t.dcolumn_exp)[:, None] >> f
+    down = t.dline * part(1 << ky, t.dline_exp)[:, None] >> f
+    exact = t.normal + right + down + 1
+    found = limit(exact)
+    return found, (found != exact).any(axis=1)
 
-    1 + rho = 1/sqrt(N.N). diffuse = N.L (1 + rho), S1.16; x = 1 - cos = |H| - N.H - N.H rho, where nothing cancels;
-    specular: chords over x 2^shift of the table.
+
+class Scalars(NamedTuple):
+    """N.L (L, B), N.H (L, B) and N.N (B,) in the middles of boxes and what they grow by a quarter of a box.
+
+    As they are cut for nodes: 17, 24, 25 fraction bits. ``*_columns`` ...: half of the second difference.
     """
-    a, h, p = integers(a, h, p)
-    f, one = k.PATCH_DOT_F, 1 << k.RSQRT_F
-    short, long = p < 1 << f - 2, p >= 4 << f
-    y, e = rsqrt(np.clip(p, 1, (16 << f) - 1) << k.RSQRT_W - 4 - f)
-    rho = np.where(short, one - 1, np.minimum(np.where(e == 15, 2 * y, np.where(e == 16, y, y >> 1)) - one, one - 1))
-    a, h16 = limit(round(a, f - k.INTENSITY_F)), limit(round(h, f - k.INTENSITY_F))
-    less = k.RSQRT_F - k.PATCH_RHO_F
-    diffuse = limit(
-        round((a << k.PATCH_RHO_F) + a * np.minimum(round(rho, less), (1 << k.PATCH_RHO_F) - 1), k.PATCH_RHO_F)
-    )
-    x = words["h_length"] - h - round(h16 * rho, k.INTENSITY_F + k.RSQRT_F - f)
-    flags = (short.astype(np.int64) << k.PATCH_LIGHT_SHORT) | (long.astype(np.int64) << k.PATCH_LIGHT_LONG)
-    return diffuse, chord(x, words["shift"], table), flags
+
+    a: Int
+    a_column: Int
+    a_line: Int
+    h: Int
+    h_column: Int
+    h_line: Int
+    p: Int
+    p_column: Int
+    p_line: Int
+    p_columns: Int
+    p_lines: Int
+    p_both: Int
 
 
-def chord(x: Int, shift: int, table: Int) -> Int:
-    """The lobe over x = 1 - cos, S4.24: table (2, 512) of values U1.15 and slopes S-3.18, beyond its end 0."""
-    f, rest = k.PATCH_DOT_F, k.PATCH_DOT_F - k.PATCH_TABLE_LOG2
-    scaled = np.clip(x, 0, (1 << f + 1) - 1) << shift
-    inside = scaled < 1 << f
-    at = np.where(inside, scaled >> rest, 0)
-    part = scaled & (1 << rest) - 1
-    value = (table[0][at] << rest + 3) + table[1][at] * part
-    return np.where(inside, limit(round(value, rest + 2)), 0)
+def scalars(t: Triangles, kx: Int, ky: Int, words: Settings, of: Int, bx: Int, by: Int) -> tuple[Scalars, Int]:
+    """Those of boxes (B,) of the triangles ``of``; and which triangles' normals were saturated.
+
+    Coefficients as ``direct.setup`` makes them, in quarters of a box; boxes are reached by exact additions.
+    (``shade_patch_setup``, ``shade_patch_walk``)
+    """
+    middle, wide = middles(t, kx, ky)
+    ec, el = t.dcolumn_exp - kx + k.PATCH_LOG2_MIN, t.dline_exp - ky + k.PATCH_LOG2_MIN
+    x, y = 4 * (bx - (t.box[:, 2] >> kx)[of]), 4 * by
+    low = {"a": k.DIRECT_A_F - k.DIRECT_DIFFUSE_F, "h": k.DIRECT_H_F - k.DIRECT_X_F}
+    low |= {"p": k.DIRECT_P_F - k.DIRECT_P_OUT_F}
+    mask = (1 << k.DIRECT_P_W) - 1
+    found: dict[str, list[Int]] = {}
+    for l, h in zip(words.l, words.h, strict=True):  # noqa: E741
+        c = direct.Coefficients(*(v[of] for v in direct.setup(middle, t.dcolumn, ec, t.dline, el, l, h)))
+        a, h_at, p = direct.step(c, x, y)
+        c = c._replace(
+            a=a, h=h_at, p=p,
+            p_column=c.p_column + 2 * x * c.p_columns + y * c.p_both & mask,
+            p_line=c.p_line + 2 * y * c.p_lines + x * c.p_both & mask,
+        )  # fmt: skip
+        for name, value in c._asdict().items():
+            found.setdefault(name, []).append(value >> low[name[0]])
+    shared = {name: values[0] if name[0] == "p" else np.stack(values) for name, values in found.items()}
+    return Scalars(**shared), wide
+
+
+def light(at: Scalars, i: Int, j: Int, lobe: Lobe, excess: Int) -> tuple[Int, Int, Int]:
+    """(diffuse, specular, short), S1.16, at i, j quarters of a box from its middle (``_nodes``, ``_light``).
+
+    ``direct.scalar_light`` of the scalars there, modulo their widths. Of several lights the sum, each one's diffuse
+    light not below 0.
+    """
+    p = at.p + i * at.p_column + j * at.p_line + i * i * at.p_columns + i * j * at.p_both + j * j * at.p_lines
+    p = p & (1 << k.DIRECT_P_OUT_F + 1) - 1
+    a = wrap(at.a + i * at.a_column + j * at.a_line, k.DIRECT_DIFFUSE_F + 2)
+    h = wrap(at.h + i * at.h_column + j * at.h_line, k.DIRECT_X_F + 2)
+    every = [
+        direct.scalar_light(*parts, p, lobe._replace(excess=int(e))) for *parts, e in zip(a, h, excess, strict=True)
+    ]
+    diffuse, specular = (np.stack(part) for part in zip(*(one[:2] for one in every), strict=True))
+    if len(every) > 1:
+        diffuse = np.maximum(diffuse, 0)
+    return limit(diffuse.sum(axis=0)), limit(specular.sum(axis=0)), every[0][2]
 
 
 def coefficients(c: Int, e: Int, a: Int, b: Int, f: Int, g: Int) -> tuple[Int, ...]:
@@ -183,7 +231,7 @@ class Drawn:
 NODES = ((0, 0), (1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1))  # C, E, A, B, F, G, in quarters of a box
 
 
-def draw(t: Triangles, words: Words, table: Int) -> Drawn:
+def draw(t: Triangles, words: Settings, lobe: Lobe) -> Drawn:
     """Triangles and their runs through ``shade_patch``."""
     kx, ky, curved = plan(t, words)
     first = np.flatnonzero(np.diff(t.triangle, prepend=-1))  # the first run of each
@@ -195,96 +243,62 @@ def draw(t: Triangles, words: Words, table: Int) -> Drawn:
     key = (of << 24) | (y >> ky[of]) << 12 | x >> kx[of]
     key, inside, pixels = np.unique(key, return_inverse=True, return_counts=True)
     bt, by, bx = key >> 24, key >> 12 & 4095, key & 4095
+    at, wide = scalars(t, kx, ky, words, bt, bx, by)
     kx, ky = kx[bt], ky[bt]
-    direct = (curved[bt] == 1) | ((kx == k.PATCH_LOG2_MIN) & (ky == k.PATCH_LOG2_MIN) & (pixels <= k.PATCH_SMALL))
+    single = (curved[bt] == 1) | ((kx == k.PATCH_LOG2_MIN) & (ky == k.PATCH_LOG2_MIN) & (pixels <= k.PATCH_SMALL))
+    flags = int(wide.any()) << k.PATCH_LIGHT_RANGE
 
-    # normals, S1.16: in the middles of the boxes and a quarter of a box along each side
-    most = k.PATCH_LOG2_MAX
-    qx, qy = (
-        (mantissa << k.PATCH_STEP_F - k.INTENSITY_F + most - 2) >> (exp + most)[:, None] - size[:, None]
-        for mantissa, exp, size in ((t.dcolumn[bt], t.dcolumn_exp[bt], kx), (t.dline[bt], t.dline_exp[bt], ky))
-    )
-    corner = corners(t)[bt] << k.PATCH_STEP_F - k.PATCH_PLAN_F
-    middle = wrap(corner + qx * (4 * bx + 2)[:, None] + qy * (4 * by + 2)[:, None], k.PATCH_STEP_W)
-    less = k.PATCH_STEP_F - k.INTENSITY_F
-    near = middle >> less  # half an ulp is in the corner
-    n, dx, dy = limit(near), limit(qx >> less), limit(qy >> less)
-    outside = bool((n != near).any())
-    l, h = (tuple(words[f"{v}{c}"] for c in "xyz") for v in "lh")  # noqa: E741
-
-    def dot(a: Int, b) -> Int:
-        return dot3(
-            *(a.T if isinstance(a, np.ndarray) else a), *(b.T if isinstance(b, np.ndarray) else b), k.PATCH_DOT_F
-        )
-
-    flags = outside << k.PATCH_LIGHT_RANGE
-
-    def lit(at: Int, i: Int, j: Int) -> tuple[Int, Int]:
-        """Light at i, j quarters from the middles of the boxes ``at``."""
+    def lit(boxes: Int, i: Int, j: Int) -> tuple[Int, Int]:
+        """Light at i, j quarters from the middles of ``boxes``."""
         nonlocal flags
-        nl, nh, p = (dot(n, l), dot(n, h), dot(n, n))
-        a, b = (nl + 0)[at] + i * dot(dx, l)[at] + j * dot(dy, l)[at], nh[at] + i * dot(dx, h)[at] + j * dot(dy, h)[at]
-        p = p[at] + 2 * i * dot(n, dx)[at] + 2 * j * dot(n, dy)[at]
-        p = p + i * i * dot(dx, dx)[at] + 2 * i * j * dot(dx, dy)[at] + j * j * dot(dy, dy)[at]
-        *both, told = light(*(wrap(v, k.PATCH_DOT_W) for v in (a, b, p)), words, table)
-        flags |= int(np.bitwise_or.reduce(told, initial=0))
+        here = Scalars(*(part[..., boxes] for part in at))
+        *both, short = light(here, i, j, lobe, words.excess)
+        flags |= int(short.any()) << k.PATCH_LIGHT_SHORT
         return tuple(both)
 
-    smooth = np.flatnonzero(~direct)
-    nodes = [lit(smooth, np.full(len(smooth), i), np.full(len(smooth), j)) for i, j in NODES]
+    smooth = np.flatnonzero(~single)
+    nodes = [lit(smooth, np.int64(i), np.int64(j)) for i, j in NODES]
     place = np.zeros(len(key), np.int64)
     place[smooth] = np.arange(len(smooth))
     u, v = x - (bx << kx)[inside], y - (by << ky)[inside]
     values = np.zeros((len(x), 2), np.int64)
-    single = direct[inside]
-    one = lit(inside[single], u[single] - 2, v[single] - 2)
-    at = inside[~single]
-    u8, v8 = (u[~single] << 4 - kx[at]) - 8, (v[~single] << 4 - ky[at]) - 8
+    alone = single[inside]
+    one = lit(inside[alone], u[alone] - 2, v[alone] - 2)
+    box = inside[~alone]
+    u8, v8 = (u[~alone] << 4 - kx[box]) - 8, (v[~alone] << 4 - ky[box]) - 8
     for c in range(2):
         parts = coefficients(*(node[c] for node in nodes))
-        values[single, c] = saturate(one[c], k.PIXEL_W)
-        values[~single, c] = value(tuple(part[place[at]] for part in parts), u8, v8)
+        values[alone, c] = saturate(one[c], k.PIXEL_W)
+        values[~alone, c] = value(tuple(part[place[box]] for part in parts), u8, v8)
     order = np.lexsort((u, v, inside))
-    same = (np.diff(inside[order]) == 0) & (np.diff(v[order]) == 0) & ~single[order][:-1]
+    same = (np.diff(inside[order]) == 0) & (np.diff(v[order]) == 0) & ~alone[order][:-1]
     return Drawn(
         values[order], (x + edge[of])[order], (y + top[of])[order], t.tag[of][order],
-        np.append(~same, True)[: len(x)].astype(np.int64), order, 6 * len(smooth) + int(single.sum()), flags, len(key),
-        int(direct.sum()),
+        np.append(~same, True)[: len(x)].astype(np.int64), order, 6 * len(smooth) + int(alone.sum()), flags, len(key),
+        int(single.sum()),
     )  # fmt: skip
 
 
 TOLERANCE = 0.125  # T of n (1 - cos) <= T between the middle of a box and a corner, where the highlight is brightest
 WEIGHT = 0.72  # the highlight's curvature is halved where n (1 - cos) is 1 / WEIGHT larger
-TABLE_SHIFT_MAX = 7
 
 
-def registers(material: Material, light: ArrayLike, weighted: bool = True) -> tuple[dict[str, int], Int]:
-    """Settings of ``shade_patch`` by name, and its table (2, 512): values U1.15, slopes S-3.18 a chord.
+def registers(material: Material, light: ArrayLike, weighted: bool = True) -> tuple[Settings, Lobe]:
+    """Settings of ``shade_patch`` and the lobe of its table, for a light (3,) or several (L, 3).
 
     For models whose highlight depends on N.H alone. ``weighted`` = False: boxes are everywhere as small as in it.
     """
     if material.model not in ("lambert", "blinn"):
         raise ValueError(f"model: {material.model} is none of lambert, blinn, which patches have")
-    words = light_registers(light)
-    h = [words[f"h{c}"] for c in "xyz"]
-    words["h_length"] = isqrt(sum(c * c for c in h) << 2 * (k.PATCH_DOT_F - k.INTENSITY_F))
-    n = sharpness(material.model, material.shininess)
-    scale = material.scale(light) if material.model == "blinn" else 0.0
-
-    def lobe(x: ArrayLike) -> np.ndarray:
-        return scale * np.maximum(1 - np.asarray(x, float), 0) ** material.shininess
-
-    ends = (s for s in range(TABLE_SHIFT_MAX, 0, -1) if lobe(2.0**-s) < 2.0**-18)
-    shift = next(ends, 0)
-    chords = lobe(np.arange((1 << k.PATCH_TABLE_LOG2) + 1) / (1 << k.PATCH_TABLE_LOG2 + shift))
-    chords = np.minimum(chords, 2 - 2.0**-15)
-    values, slopes = np.rint(chords[:-1] * 2**15), np.rint(np.diff(chords) * 2**18)
-    one = 1 << k.INTENSITY_F
-    words |= {
-        "shift": shift,
-        "radius": min(int(sqrt(2 * TOLERANCE / n) * one), k.PATCH_RADIUS),
-        "reach": min(int(sqrt(4 / (WEIGHT * n)) * one), (1 << k.PATCH_REACH_W) - 1)
-        if weighted
-        else (1 << k.PATCH_REACH_W) - 1,
-    }
-    return words, np.stack([values, slopes]).astype(np.int64)
+    lights = np.asarray(light, float).reshape(-1, 3)
+    words = [light_registers(one) for one in lights]
+    lobes = [chords(material, one) for one in lights]
+    n, one = sharpness(material.model, material.shininess), 1 << k.INTENSITY_F
+    far = (1 << k.PATCH_REACH_W) - 1
+    settings = Settings(
+        *(np.array([[word[f"{v}{axis}"] for axis in "xyz"] for word in words]) for v in "lh"),
+        excess=np.array([lobe.excess for lobe in lobes]),
+        radius=min(int(sqrt(2 * TOLERANCE / n) * one), k.PATCH_RADIUS),
+        reach=min(int(sqrt(4 / (WEIGHT * n)) * one), far) if weighted else far,
+    )
+    return settings, lobes[0]

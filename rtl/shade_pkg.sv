@@ -192,7 +192,7 @@ package shade_pkg;
   localparam int DIRECT_X_F = 24;
   localparam int DIRECT_RHO_F = 17;  // of rho and 1 - N.H in products
   localparam int RHO_F = 25;  // rho = 1/sqrt(P) - 1, S0.25
-  localparam int RHO_INDEX_W = 7;  // table: segments of 1/128 of P
+  localparam int RHO_INDEX_W = 8;  // table: segments of 1/128 of P
   localparam int RHO_C0_W = 27;
   localparam int RHO_C1_F = 15;
   localparam int RHO_C2_F = 7;
@@ -232,36 +232,32 @@ package shade_pkg;
   localparam int PATCH_LOG2_MIN = 2;  // boxes of 4 .. 16 pixels a side
   localparam int PATCH_LOG2_MAX = 4;
   localparam int PATCH_SMALL = 6;  // a box of 4 x 4 with no more pixels is lit pixel by pixel
-  localparam int PATCH_PLAN_F = 18;  // fraction bits of the planner of patches
+  localparam int PATCH_LIGHTS_MAX = 4;
+  localparam int PATCH_PART_F = 15;  // S2.15: a part of a triangle's box times 2^-exp, by which an increment is multiplied
+  localparam int PATCH_PLAN_F = 14;  // fraction bits of lengths in the planner
+  localparam int PATCH_AWAY_W = 23;  // U7.16: a distance of normals
   localparam int PATCH_RADIUS = 32768;  // U0.16: the longest way of the normal from the middle of a box to its corner, 1/2
   localparam int PATCH_REACH_W = 19;  // U3.16
-  localparam int PATCH_WAY_W = 21;  // U3.18: the way of a normal, a column or a line further
-  localparam int PATCH_FAR_W = 26;  // S7.18
-  localparam int PATCH_CORNER_W = 22;  // S3.18: the normal in the corner of a triangle's box
-  localparam int PATCH_STEP_F = 28;  // S3.28: the normal from box to box
-  localparam int PATCH_STEP_W = 32;
-  localparam int PATCH_DOT_F = 22;  // N.L, N.H, N.N at nodes, S4.22
-  localparam int PATCH_DOT_W = 27;
-  localparam int PATCH_RHO_F = 17;  // 1/sqrt(N.N) - 1 for diffuse light, S0.17
-  localparam int PATCH_TABLE_LOG2 = 9;  // chords of the lobe
   localparam int PATCH_VALUE_F = 6;  // more fraction bits of a polynomial: all its terms are whole numbers of them
-  localparam int PATCH_VALUE_W = 28;  // S5.22: for nodes in [-1, 1] or [0, 2) no value between them is out of range
+  localparam int PATCH_VALUE_W = 25;  // S2.22: of a lane's state, modulo 8
   localparam int PATCH_FIFO_LOG2 = 9;  // the depth of a block RAM
+  localparam int PATCH_WAIT_LOG2 = 10;  // lights that wait for their box to be drawn
+  localparam int PATCH_PIXELS_LOG2 = 6;  // pixels that wait for a lane's consumer
   localparam int PATCH_SPARE = 16;  // words that shade_patch_tokens keeps free for what is on its way
   localparam int PATCH_LIGHT_RANGE = 0;  // bits of the flags of patches: a normal or an increment that does not fit S1.16
   localparam int PATCH_LIGHT_SHORT = 1;  // a normal shorter than 1/2
-  localparam int PATCH_LIGHT_LONG = 2;  // one of a length of 2 or more
-  localparam int PATCH_FLAGS_W = 3;
+  localparam int PATCH_FLAGS_W = 2;
   localparam int PATCH_AT_W = 10;  // a row, a column of boxes
+  localparam int PATCH_LINE_W = 28;  // a run: where it begins and ends, box and pixel
+  localparam int PATCH_SCALAR_W = 38;  // S1.36
   localparam int PATCH_RUN_W = 39;  // between the parts of shade_patch, see there
   localparam int PATCH_PLAN_W = 7;
-  localparam int PATCH_TRIANGLE_W = 156;
   localparam int PATCH_TOKEN_W = 9;
   localparam int PATCH_BOX_W = 42;
-  localparam int PATCH_PLACE_W = 68;
+  localparam int PATCH_PLACE_W = 40;
   localparam int PATCH_META_W = 51;
   localparam int PATCH_AREA_W = 44;
-  localparam int PATCH_PIECE_W = 212;
+  localparam int PATCH_PIECE_W = 194;
   localparam int PATCH_USER_W = 40;  // tuser of shade_patch
 
   // latencies, in clocks from an input taken to the output it causes
@@ -327,9 +323,7 @@ package shade_pkg;
   localparam int LATENCY_LANE_FOLDED = 152;  // parts with FOLD = 6 take what comes in every sixth clock
   localparam int LATENCY_CORE = 142;  // the door
   localparam int LATENCY_PAINT = 8;
-  localparam int LATENCY_PATCH_NORM = 3;  // absolute values, their sum and largest, half of both
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums
-  localparam int LATENCY_PATCH_LIGHT = 24;
   localparam int LATENCY_PATCH_LINES = 4;  // two bits of X each
   localparam int LATENCY_RHO = 8;  // the table, c2 d, s, s d, its rounding, rho
   localparam int LATENCY_CHORD = 6;  // the scaled x, the table, the product, the sum, saturation

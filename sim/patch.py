@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 from polyshade import sim
 from polyshade.golden import contract as k
+from polyshade.golden import direct
 from polyshade.golden import patch as golden
 from polyshade.golden.material import Material
 from polyshade.sim.scene.triangles import Triangles
 
 Ints = NDArray[np.int64]
-FLAGS = ("light_range", "light_short", "light_long")
+FLAGS = ("light_range", "light_short")
 
 
 @dataclass(frozen=True)
@@ -42,26 +43,30 @@ class Compared:
         return self.golden.evaluations
 
 
-def settings(words: golden.Words) -> dict[str, int]:
+def settings(words: golden.Settings) -> dict[str, object]:
     """The settings' ports, without the table."""
-    mask = (1 << k.INTENSITY_W) - 1
-    vectors = {
-        f"{v}_i": sum((words[f"{v}{axis}"] & mask) << k.INTENSITY_W * i for i, axis in enumerate("xyz")) for v in "lh"
-    }
-    return vectors | {f"{name}_i": words[name] for name in ("h_length", "shift", "radius", "reach")}
-
-
-def beats(triangles: Triangles, table: Ints) -> dict[str, NDArray]:
-    """``s_axis_surface``: the words of the table, then the packets."""
-    packets = triangles.stream()
-    words = np.arange(len(table[0]), dtype=np.uint64) << np.uint64(32)
-    words |= ((table[1] & 0xFFFF) << 16 | table[0]).astype(np.uint64)
-    count, zeros = len(packets["s_axis_surface_tdata"]), np.zeros(len(words), np.int64)
     return {
-        "s_axis_surface_tdata": np.r_[words, packets["s_axis_surface_tdata"]],
-        "s_axis_surface_tlast": np.r_[zeros, packets["s_axis_surface_tlast"]],
-        "s_axis_surface_tuser": np.r_[zeros + 1, np.zeros(count, np.int64)],
+        **{f"{name}_i": _joined(getattr(words, name).ravel(), k.INTENSITY_W) for name in "lh"},
+        "excess_i": _joined(words.excess, k.EXCESS_W),
+        "radius_i": words.radius,
+        "reach_i": words.reach,
     }
+
+
+def _joined(parts: NDArray, width: int) -> object:
+    """Numbers side by side, the first in the lowest bits: one, or words of 32 bits for ports of more than 64."""
+    whole = sum((int(part) & (1 << width) - 1) << width * i for i, part in enumerate(parts))
+    bits = width * len(parts)
+    return whole if bits <= 64 else np.array([[whole >> 32 * i & 0xFFFFFFFF for i in range(-(-bits // 32))]], np.uint32)
+
+
+def beats(triangles: Triangles, lobe: direct.Lobe) -> dict[str, NDArray]:
+    """``s_axis_surface``: the packet of the lobe, then those of the triangles."""
+    before, packets = direct.lobe_packet(lobe), triangles.stream()
+    return {name: np.r_[before[name], packets[name]] for name in packets}
+
+
+LOBE_BEATS = 1 + (1 << k.CHORD_INDEX_W)
 
 
 def streams(outputs: dict[str, NDArray], lanes: int) -> Ints:
@@ -93,15 +98,15 @@ def draw(
     **options: float,
 ) -> Compared:  # fmt: skip
     """Draw triangles by ``shade_patch``; compare. ``options``: of :meth:`sim.Model.run`."""
-    words, table = golden.registers(material, light)
-    model = sim.load("shade_patch", LANES=lanes)
+    words, lobe = golden.registers(material, light)
+    model = sim.load("shade_patch", LANES=lanes, LIGHTS=len(words.l))
     stage("simulate")
     began = time.perf_counter()
-    run = model.run(**beats(triangles, table), **settings(words), **options)
+    run = model.run(**beats(triangles, lobe), **settings(words), **options)
     seconds = time.perf_counter() - began
     stage("compare")
     wanted = golden.draw(
-        golden.Triangles(*(getattr(triangles, name) for name in golden.Triangles._fields)), words, table
+        golden.Triangles(*(getattr(triangles, name) for name in golden.Triangles._fields)), words, lobe
     )
     user = (wanted.line << k.PLACE_W | wanted.column) << k.TAG_W | wanted.tag
     expected = np.stack([user, wanted.pixels[:, 0] | wanted.pixels[:, 1] << k.PIXEL_W, wanted.last], axis=-1)
@@ -127,6 +132,6 @@ def draw(
     }
     if counters["errors"]:
         differences["errors"] = f"expected 0 actual {counters['errors']}"
-    clocks = int(run.given[-1] - run.taken[len(table[0])] + 1) if len(run.given) else 0
+    clocks = int(run.given[-1] - run.taken[LOBE_BEATS] + 1) if len(run.given) else 0
     status = [name for name, bit in bits.items() if bit]
     return Compared(pixels, wanted, clocks, seconds, counters, status, wrong, first, differences)

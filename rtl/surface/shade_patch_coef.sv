@@ -16,7 +16,7 @@ module shade_patch_coef (
   input  logic        [                       2:0] node_i,
   input  logic signed [shade_pkg::INTENSITY_W-1:0] light_i,
   input  logic                                     load_i,
-  output logic signed [shade_pkg::INTENSITY_W+2:0] ct_o,
+  output logic signed [shade_pkg::INTENSITY_W+1:0] ct_o,
   output logic signed [shade_pkg::INTENSITY_W+3:0] r_o,
   output logic signed [shade_pkg::INTENSITY_W+5:0] u_o,
   output logic signed [shade_pkg::INTENSITY_W+1:0] s_o,
@@ -48,7 +48,7 @@ module shade_patch_coef (
       if (!node_i[2]) ab_q <= sum(ab_q, light, first, 1'b0);
     end
     if (load_i) begin
-      ct_o <= ((W + 3)'(c_q) <<< 1) - (W + 3)'(t_q);
+      ct_o <= ((W + 2)'(c_q) <<< 1) - (W + 2)'(t_q);  // modulo 2^20
       r_o  <= ((W + 4)'(ab_q) <<< 1) - ((W + 4)'(e_q) <<< 2);
       u_o  <= (W + 6)'(t_q) - ((W + 6)'(ab_q) <<< 3) + ((W + 6)'(e_q) <<< 4);
       s_o  <= s_q;

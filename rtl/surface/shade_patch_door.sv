@@ -1,141 +1,152 @@
 // SPDX-License-Identifier: Apache-2.0
-// shade_patch_door: takes packets of s_axis_surface apart: a triangle, four beats, and its runs; words of the table.
+// shade_patch_door: takes packets of s_axis_surface apart: the four beats of a triangle, its runs; the lobe and its table.
 //
-//   s_axis_surface   packets TRIANGLE and RUN of docs/interface.md; a beat with tuser = 1 is no part of them: it writes
-//                    word tdata[31:0] of the lobe's table at tdata[40:32], while no pixel is inside
-//   triangle_o       stays until pass_i and until its last run; put_o with its place, the upper left corner of its box, behind
-//                    its first run
+//   s_axis_surface   packets TRIANGLE and RUN, or LOBE and CHORD, of docs/interface.md; the latter while no pixel is inside
+//   beat_valid_o     a beat of a triangle, always four of them;  done_i: all four have been taken, of 2^TRIANGLES_LOG2 triangles
+//   place_valid_o    {tag, line, column} of the upper left corner of its box, with its first run
 //   run_valid_o      a run, places relative to the triangle's box: {last, empty, line, first, end}, end exclusive
 //   run_room_i       as long as it is 1, two more runs may come
-//   error_o          for one clock: ERROR_EMPTY, a triangle without a box: it is dropped; ERROR_LONG, a run that is empty but
-//                    not the last, beyond the box, or not below the one before it: it is dropped; ERROR_DIRECT, a packet
-//                    that ends among the first four beats
+//   table_*, shift_o an entry of the table, and the lobe's shift
+//   error_o          for one clock: ERROR_EMPTY, a triangle without a box, ERROR_DIRECT, a packet that ends among the first
+//                    four beats: of both an empty last run is made; ERROR_LONG, a run that is empty but not the last, beyond
+//                    the box, or not below the one before it: it is dropped
 //
-// A beat a clock. Latency: a run 2 clocks, a triangle 1 clock behind its fourth beat.
-// Example: 4 columns, 1 line, left 0, run (10, 20, 4), tlast -> place (10, 20), run {1, 0, 0, 0, 4}.
-module shade_patch_door (
+// A beat a clock. Latency: a run 2 clocks. Example: 4 columns, 1 line, left 0, run (10, 20, 4), tlast -> place (10, 20), run
+// {1, 0, 0, 0, 4}.
+module shade_patch_door #(
+  parameter int TRIANGLES_LOG2 = shade_pkg::PATCH_FIFO_LOG2 - 2
+) (
   input  logic                                        clk_i,
   input  logic                                        rst_i,
   input  logic                                        s_axis_surface_tvalid,
   output logic                                        s_axis_surface_tready,
-  input  logic [        shade_pkg::SURFACE_DATA_W-1:0] s_axis_surface_tdata,
-  input  logic                                        s_axis_surface_tuser,
+  input  logic [       shade_pkg::SURFACE_DATA_W-1:0] s_axis_surface_tdata,
   input  logic                                        s_axis_surface_tlast,
-  output logic                                        triangle_valid_o,
-  output shade_pkg::triangle_t                        triangle_o,
-  input  logic                                        pass_i,
-  output logic                                        put_o,
-  output logic [2*shade_pkg::PLACE_W-1:0]             place_o,  // {line, column}
+  output logic                                        beat_valid_o,
+  output logic [       shade_pkg::SURFACE_DATA_W-1:0] beat_o,
+  input  logic                                        done_i,
+  output logic                                        place_valid_o,
+  output logic [        shade_pkg::PATCH_PLACE_W-1:0] place_o,
   output logic                                        run_valid_o,
-  output logic [shade_pkg::PATCH_RUN_W-1:0]           run_o,
+  output logic [          shade_pkg::PATCH_RUN_W-1:0] run_o,
   input  logic                                        run_room_i,
   output logic                                        table_write_o,
-  output logic [shade_pkg::PATCH_TABLE_LOG2-1:0]      table_at_o,
-  output logic [                               31:0]  table_o,
-  output logic [         shade_pkg::ERROR_W-1:0]      error_o
+  output logic [        shade_pkg::CHORD_INDEX_W-1:0] table_at_o,
+  output shade_pkg::chord_t                           table_o,
+  output logic [        shade_pkg::CHORD_SHIFT_W-1:0] shift_o,
+  output logic [              shade_pkg::ERROR_W-1:0] error_o
 );
+  if (TRIANGLES_LOG2 < 1) begin : g_check
+    $error("shade_patch_door: TRIANGLES_LOG2 must be at least 1");
+  end
   localparam int DATA_W = shade_pkg::SURFACE_DATA_W;
-  localparam int BEATS = shade_pkg::TRIANGLE_BEATS;
   localparam int COUNT_W = shade_pkg::COUNT_W;
   localparam int PLACE_W = shade_pkg::PLACE_W;
 
-  // ---- beats ---------------------------------------------------------------------------------------------------------
-  logic [2:0] beat_q;  // BEATS: runs
-  logic [DATA_W*BEATS-1:0] head_q;
-  logic head, take, packet, bad_q, ready_q;
-  assign triangle_o = head_q;
-  assign head       = beat_q != 3'(BEATS);
-  assign take       = s_axis_surface_tvalid && s_axis_surface_tready;
-  assign packet     = take && !s_axis_surface_tuser;
-  assign s_axis_surface_tready = ready_q && (!triangle_valid_o || !head) && (head || run_room_i);
-
+  // ---- beats: those that a packet cut short lacks are made up, and an empty last run behind them -----------------------------
+  typedef enum logic [2:0] {BOX, NORMAL, COLUMN, LINE, RUNS, TABLE} state_t;
+  state_t state_q;
+  logic cut_q, bad_q, ready_q, some, take, head, beat, lobe, no_box, made_up;
+  assign head    = state_q != RUNS && state_q != TABLE;
+  assign take    = s_axis_surface_tvalid && s_axis_surface_tready;
+  assign lobe    = s_axis_surface_tdata[47];
+  assign beat    = head && (cut_q || (take && !(state_q == BOX && lobe)));
+  assign made_up = state_q == RUNS && cut_q;
+  assign s_axis_surface_tready = ready_q && !cut_q && (state_q == BOX ? some : state_q != RUNS || run_room_i);
   function automatic logic none(input logic [COUNT_W-1:0] n);  // a side that is no side: 0, or more than 4096
     none = n == '0 || n > COUNT_W'(shade_pkg::PIXELS_MAX);
   endfunction
-  shade_pkg::triangle_t last_beat;  // as it will stand in head_q
-  logic no_box;
-  assign last_beat = {s_axis_surface_tdata, head_q[DATA_W*(BEATS-1)-1:0]};
-  assign no_box    = none(last_beat.columns) || none(last_beat.lines);
-
-  for (genvar i = 0; i < BEATS; i++) begin : g_head
-    always_ff @(posedge clk_i) if (packet && beat_q == 3'(i)) head_q[DATA_W*i+:DATA_W] <= s_axis_surface_tdata;
-  end
+  assign no_box = none(s_axis_surface_tdata[0+:COUNT_W]) || none(s_axis_surface_tdata[16+:COUNT_W]);
+  shade_credit #(.LOG2(TRIANGLES_LOG2)) u_credit (
+    .clk_i, .rst_i, .take_i(beat && state_q == BOX), .give_i(done_i), .some_o(some), .soon_o()
+  );
+  logic [PLACE_W-1:0] from_q;  // columns on the left of the reference pixel
+  logic [COUNT_W-1:0] columns_q, lines_q;
+  logic [shade_pkg::TAG_W-1:0] tag_q;
   always_ff @(posedge clk_i) begin
     ready_q <= 1'b1;
-    if (pass_i) triangle_valid_o <= 1'b0;
-    if (packet) begin
-      if (head) begin
-        beat_q <= s_axis_surface_tlast ? 3'd0 : beat_q + 3'd1;
-        if (beat_q == 3'(BEATS - 1) && !s_axis_surface_tlast) begin
-          triangle_valid_o <= !no_box;
-          bad_q            <= no_box;
-        end
-      end else if (s_axis_surface_tlast) beat_q <= 3'd0;
+    beat_o  <= s_axis_surface_tdata;
+    beat_valid_o <= beat && !rst_i;
+    if (take && state_q == BOX) begin
+      {columns_q, lines_q, from_q, tag_q} <= {s_axis_surface_tdata[0+:COUNT_W], s_axis_surface_tdata[16+:COUNT_W],
+                                              s_axis_surface_tdata[32+:PLACE_W], s_axis_surface_tdata[48+:16]};
+      bad_q <= no_box || s_axis_surface_tlast;
     end
+    if (take && head && s_axis_surface_tlast && !(state_q == BOX && lobe)) {cut_q, bad_q} <= 2'b11;
+    else if (made_up) cut_q <= 1'b0;
+    case (state_q)
+      RUNS: if (made_up || (take && s_axis_surface_tlast)) state_q <= BOX;
+      TABLE: if (take && s_axis_surface_tlast) state_q <= BOX;
+      BOX:
+      if (take && lobe) begin
+        if (!s_axis_surface_tlast) state_q <= TABLE;
+      end else if (beat) state_q <= NORMAL;
+      default: if (beat) state_q <= state_t'(state_q + 3'd1);
+    endcase
     if (rst_i) begin
-      ready_q          <= 1'b0;
-      beat_q           <= 3'd0;
-      triangle_valid_o <= 1'b0;
+      state_q <= BOX;
+      cut_q   <= 1'b0;
+      ready_q <= 1'b0;
     end
+  end
+
+  // ---- the table of the lobe ------------------------------------------------------------------------------------------------
+  logic write;
+  assign write = take && state_q == TABLE;
+  always_ff @(posedge clk_i) begin
+    if (take && state_q == BOX && lobe) shift_o <= s_axis_surface_tdata[0+:shade_pkg::CHORD_SHIFT_W];
+    if (state_q == BOX) table_at_o <= '1;
+    else if (write) table_at_o <= table_at_o + 1'b1;
+    table_o       <= s_axis_surface_tdata[$bits(table_o)-1:0];
+    table_write_o <= write && !rst_i;
   end
 
   // ---- runs, relative to the box ---------------------------------------------------------------------------------------
   shade_pkg::run_t run;
-  logic valid_q1, last_q1, empty_q1, first_q, first_q1, seen_q;  // seen: a run of this triangle
+  logic go, valid_q1, last_q1, empty_q1, first_q, first_q1, bad_q1, seen_q;  // seen: a run of this triangle
   logic [PLACE_W:0] x_q1, y_q1, before_q;  // with a borrow
   logic [PLACE_W-1:0] edge_q, top_q, left, top;
   logic [COUNT_W-1:0] count_q1, columns_q1, lines_q1;
   logic [COUNT_W:0] end_x;
   logic beyond, drop;
   assign run    = s_axis_surface_tdata;
-  assign left   = first_q ? run.column - triangle_o.left : edge_q;
+  assign go     = made_up || (take && state_q == RUNS);
+  assign left   = first_q ? run.column - from_q : edge_q;
   assign top    = first_q ? run.line : top_q;
   assign end_x  = (COUNT_W + 1)'(x_q1) + (COUNT_W + 1)'(count_q1);
   assign beyond = x_q1[PLACE_W] || y_q1[PLACE_W] || end_x > (COUNT_W + 1)'(columns_q1) || y_q1 >= lines_q1 ||
                   (seen_q && !first_q1 && y_q1 <= before_q);
   assign drop   = empty_q1 ? !last_q1 : beyond;
   always_ff @(posedge clk_i) begin
-    valid_q1   <= packet && !head && !bad_q;
-    last_q1    <= s_axis_surface_tlast;
+    valid_q1   <= go && !rst_i;
+    last_q1    <= made_up || s_axis_surface_tlast;
     empty_q1   <= run.count == '0;
+    bad_q1     <= bad_q;
     // of the first run the place in the box is given
-    x_q1       <= first_q ? (PLACE_W + 1)'(triangle_o.left) : (PLACE_W + 1)'(run.column) - (PLACE_W + 1)'(edge_q);
+    x_q1       <= first_q ? (PLACE_W + 1)'(from_q) : (PLACE_W + 1)'(run.column) - (PLACE_W + 1)'(edge_q);
     y_q1       <= first_q ? '0 : (PLACE_W + 1)'(run.line) - (PLACE_W + 1)'(top_q);
-    if (packet && !head) begin
-      edge_q <= left;
-      top_q  <= top;
-    end
-    put_o      <= packet && !head && !bad_q && first_q && !rst_i;
-    place_o    <= {top, left};
+    if (go) {edge_q, top_q} <= {left, top};
+    place_valid_o <= go && first_q && !rst_i;
+    place_o       <= {tag_q, top, left};
     count_q1   <= run.count;
-    columns_q1 <= triangle_o.columns;
-    lines_q1   <= triangle_o.lines;
+    columns_q1 <= columns_q;
+    lines_q1   <= lines_q;
     first_q1   <= first_q;
-    if (packet) first_q <= head;
+    if (beat || go) first_q <= beat;
     if (valid_q1) begin
       seen_q <= (seen_q && !first_q1) || (!drop && !empty_q1);
       if (!drop && !empty_q1) before_q <= y_q1;
     end
-    run_o       <= {last_q1, empty_q1 || drop, y_q1[PLACE_W-1:0], x_q1[PLACE_W-1:0], end_x[COUNT_W-1:0]};
-    run_valid_o <= valid_q1 && (!drop || last_q1);
+    run_o       <= {last_q1, empty_q1 || drop || bad_q1, y_q1[PLACE_W-1:0], x_q1[PLACE_W-1:0], end_x[COUNT_W-1:0]};
+    run_valid_o <= valid_q1 && (bad_q1 || drop ? last_q1 : 1'b1) && !rst_i;
 
     error_o                          <= '0;
-    error_o[shade_pkg::ERROR_EMPTY]  <= packet && head && beat_q == 3'(BEATS - 1) && !s_axis_surface_tlast && no_box;
-    error_o[shade_pkg::ERROR_LONG]   <= valid_q1 && drop;
-    error_o[shade_pkg::ERROR_DIRECT] <= packet && head && s_axis_surface_tlast;
-    if (rst_i) begin
-      valid_q1    <= 1'b0;
-      run_valid_o <= 1'b0;
-      error_o     <= '0;
-    end
+    error_o[shade_pkg::ERROR_EMPTY]  <= take && state_q == BOX && !lobe && !s_axis_surface_tlast && no_box;
+    error_o[shade_pkg::ERROR_LONG]   <= valid_q1 && drop && !bad_q1;
+    error_o[shade_pkg::ERROR_DIRECT] <= take && head && s_axis_surface_tlast && !(state_q == BOX && lobe);
+    if (rst_i) error_o <= '0;
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, last_beat, run};
-
-  always_ff @(posedge clk_i) begin
-    table_at_o    <= s_axis_surface_tdata[32+:shade_pkg::PATCH_TABLE_LOG2];
-    table_o       <= s_axis_surface_tdata[31:0];
-    table_write_o <= take && s_axis_surface_tuser;
-  end
+  assign unused_bits = &{1'b0, run, 1'(DATA_W)};
 endmodule

@@ -4,7 +4,6 @@
 //   ct_i .. p_i    of shade_patch_coef; they stay for 2 clocks behind load_i
 //   load_i         a box: its first line is X = Y = -8 of what follows, in eighths of half a box
 //   step_i         the line at hand goes out, the next one, 2^jy further, is made; with it x_i, the line's first pixel
-//   single_i       instead: I = light_i
 //   jx_i, jy_i     4 - kx, 4 - ky, 0 .. 2, of the box of step_i
 //   first_o        I = 32 + 64 C + 4 (2 s X + 2 t Y) + p X^2 + q X Y + r Y^2
 //   d1_o           the step to the next pixel, X + 2^jx;   d2_o  its step
@@ -15,7 +14,7 @@
 // Example: ct = 2, others 0 (all nodes 1) -> 1, 0, 0 in every line.
 module shade_patch_lines (
   input  logic                                       clk_i,
-  input  logic signed [  shade_pkg::INTENSITY_W+2:0] ct_i,
+  input  logic signed [  shade_pkg::INTENSITY_W+1:0] ct_i,
   input  logic signed [  shade_pkg::INTENSITY_W+3:0] r_i,
   input  logic signed [  shade_pkg::INTENSITY_W+5:0] u_i,
   input  logic signed [  shade_pkg::INTENSITY_W+1:0] s_i,
@@ -29,8 +28,6 @@ module shade_patch_lines (
   input  logic                                       step_late_i,
   input  logic signed [                         3:0] x_i,
   input  logic        [                         1:0] jx_i,
-  input  logic                                       single_i,     // two clocks behind a step: a pixel lit directly, x_i = 0
-  input  logic signed [  shade_pkg::INTENSITY_W-1:0] light_i,
   output logic signed [shade_pkg::PATCH_VALUE_W-1:0] first_o,
   output logic signed [shade_pkg::PATCH_VALUE_W-1:0] d1_o,
   output logic signed [shade_pkg::PATCH_VALUE_W-1:0] d2_o
@@ -88,8 +85,7 @@ module shade_patch_lines (
     v_q2 <= high(bp_q1, p_q1, top_q1);
     {b_q2, p_q2, top_q2, low_q2, jx_q2} <= {b_q1, p_q1, top_q1, low_q1, jx_q1};
 
-    va_q3 <= single_i ? $signed({(W - shade_pkg::PATCH_VALUE_F)'(light_i), 1'b1, {(shade_pkg::PATCH_VALUE_F - 1) {1'b0}}})
-                      : low(a_q, v_q2, low_q2);
+    va_q3 <= low(a_q, v_q2, low_q2);
     vu_q3 <= (v_q2 <<< 1) - b_q2;  // B + 2 p X
     {v_q3, p_q3, top_q3, jx_q3} <= {v_q2, p_q2, top_q2, jx_q2};
 

@@ -2,11 +2,12 @@
 // shade_patch_pieces: from the light at nodes and the pixels of boxes to pieces of lines for shade_patch_lane.
 //
 //   meta_*, light_*, token_*   of shade_patch_nodes, {specular, diffuse} of shade_patch_light, and shade_patch_clip, from FIFOs
-//   room_i      stops the walk over lines and pixels; up to LATENCY_PATCH_LINES + 1 pieces still come
+//   room_i      stops the walk over lines; up to LATENCY_PATCH_LINES + 1 pieces still come
 //   place_o     {count - 1, column, line, tag} of a piece, LATENCY_PATCH_LINES clocks in front of
-//   value_o     {specular d2, d1, I, diffuse d2, d1, I}: see shade_patch_lines; of a pixel that is lit directly I alone counts
+//   value_o     {specular d2, d1, I, diffuse d2, d1, I}: see shade_patch_lines
+//   pixel_valid_o, pixel_o   a pixel that is lit directly, {line, column, tag, specular, diffuse}, until pixel_ready_i
 //
-// A box's nodes are taken while the lines of the one before it are drawn. A line or a pixel a clock, pixels first.
+// A box's nodes are taken while the lines of the one before it are drawn. A line and a light a clock; an empty line above others costs as much.
 // Example: a box of 4 x 4 with 7 pixels in two lines -> six lights taken, two pieces.
 module shade_patch_pieces (
   input  logic                                  clk_i,
@@ -19,12 +20,15 @@ module shade_patch_pieces (
   input  logic [2*shade_pkg::INTENSITY_W-1:0]   light_i,
   input  logic                                  token_valid_i,
   output logic                                  token_ready_o,
-  input  logic [ shade_pkg::PATCH_TOKEN_W-1:0]  token_i,
+  input  logic [2*shade_pkg::PATCH_TOKEN_W-1:0] token_i,
   input  logic                                  room_i,
   output logic                                  place_valid_o,
   output logic [ shade_pkg::PATCH_AREA_W-1:0]   place_o,
   output logic                                  value_valid_o,
-  output logic [6*shade_pkg::PATCH_VALUE_W-1:0] value_o
+  output logic [6*shade_pkg::PATCH_VALUE_W-1:0] value_o,
+  output logic                                  pixel_valid_o,
+  input  logic                                  pixel_ready_i,
+  output logic [shade_pkg::PATCH_USER_W+shade_pkg::PIXEL_DATA_W-1:0] pixel_o
 );
   localparam int W = shade_pkg::INTENSITY_W;
   localparam int VALUE_W = shade_pkg::PATCH_VALUE_W;
@@ -38,13 +42,13 @@ module shade_patch_pieces (
   // ---- nodes: six of a box, or a pixel -----------------------------------------------------------------------------------------
   logic direct, node, whole, single, free_q, load_q, waits_q, load, step, done;
   logic [2:0] node_q;
-  logic [LATE-1:0] loads_q, steps_q, singles_q;
+  logic [LATE-1:0] loads_q, steps_q;
   logic [BOX_W-1:0] box, coming_q, box_q;
   assign {direct, box} = meta_i;
   // the last node of a box when there is room for its coefficients
   assign node          = meta_valid_i && light_valid_i && !direct && (node_q != 3'd5 || free_q || loads_q[LATE-1]);
   assign whole         = node && node_q == 3'd5;
-  assign single        = meta_valid_i && light_valid_i && direct && room_i;
+  assign single        = meta_valid_i && light_valid_i && direct && (!pixel_valid_o || pixel_ready_i);
   assign light_ready_o = node || single;
   assign meta_ready_o  = whole || single;
   always_ff @(posedge clk_i) begin
@@ -64,7 +68,8 @@ module shade_patch_pieces (
   end
 
   // ---- lines of a box ----------------------------------------------------------------------------------------------------------
-  logic busy_q, empty;
+  localparam int TOKEN_W = shade_pkg::PATCH_TOKEN_W;
+  logic busy_q, empty, odd_q;
   logic [LOG2-1:0] deep_q, deep, first;
   logic [LOG2:0] count;
   logic [2:0] kx, ky, coming_kx, coming_ky;
@@ -76,10 +81,10 @@ module shade_patch_pieces (
   logic [TAG_W-1:0] coming_tag;
   assign {coming_deep, coming_kx, coming_ky, coming_column, coming_line, coming_tag} = coming_q;
   assign {deep, kx, ky, column, line, tag} = box_q;
-  assign {first, count} = token_i;
+  assign {first, count} = odd_q ? token_i[TOKEN_W+:TOKEN_W] : token_i[0+:TOKEN_W];
   assign empty         = count == '0;
-  assign step          = busy_q && token_valid_i && room_i && !single;
-  assign token_ready_o = step;
+  assign step          = busy_q && token_valid_i && room_i;
+  assign token_ready_o = step && (odd_q || done);
   assign done          = step && deep_q == '0;
   assign load          = waits_q && (!busy_q || done);
   assign jx            = 2'(3'd4 - kx);
@@ -97,45 +102,40 @@ module shade_patch_pieces (
     else if (done) busy_q <= 1'b0;
     loads_q   <= {loads_q[LATE-2:0], load};
     steps_q   <= {steps_q[LATE-2:0], step};
-    singles_q <= {singles_q[LATE-2:0], single};
+    if (load || done) odd_q <= 1'b0;
+    else if (step) odd_q <= !odd_q;
     if (rst_i) begin
       busy_q    <= 1'b0;
       loads_q   <= '0;
-      singles_q <= '0;
     end
   end
   shade_delay #(.WIDTH(2), .DEPTH(LATE)) u_jy (.clk_i, .d_i(jy), .q_o(jy_late));
 
-  logic unused_deep;
-  logic [LOG2-1:0] single_deep;
-  logic [2:0] single_kx, single_ky;
+  always_ff @(posedge clk_i) begin
+    place_valid_o <= step && !empty && !rst_i;
+    place_o       <= {LOG2'(count - (LOG2 + 1)'(1)), column + PLACE_W'(first), line_q, tag};
+  end
+
+  // ---- pixels that are lit directly ------------------------------------------------------------------------------------------------
+  logic [1:0][shade_pkg::PIXEL_W-1:0] lit;
+  logic [LOG2+5:0] unused_size;
   logic [PLACE_W-1:0] single_column, single_line;
   logic [TAG_W-1:0] single_tag;
-  assign {single_deep, single_kx, single_ky, single_column, single_line, single_tag} = box;
-  assign unused_deep = &{1'b0, single_deep, single_kx, single_ky, coming_kx, coming_column, deep, ky, line, coming_tag};
+  assign {unused_size, single_column, single_line, single_tag} = box;
+  for (genvar c = 0; c < 2; c++) begin : g_lit
+    assign lit[c] = light_i[c*W+W-1] ? '0 : light_i[c*W+W-2] ? '1 : light_i[c*W+:shade_pkg::PIXEL_W];
+  end
   always_ff @(posedge clk_i) begin
-    place_valid_o <= (single || (step && !empty)) && !rst_i;
-    place_o <= single ? {LOG2'(0), single_column, single_line, single_tag}
-                      : {LOG2'(count - (LOG2 + 1)'(1)), column + PLACE_W'(first), line_q, tag};
+    if (single) pixel_o <= {single_line, single_column, single_tag, lit};
+    pixel_valid_o <= !rst_i && (single || (pixel_valid_o && !pixel_ready_i));
   end
 
   // ---- values ------------------------------------------------------------------------------------------------------------------
-  // light of pixels waits for their turn in shade_patch_lines
-  logic [2*W-1:0] late[0:7];
-  logic [2:0] put_q, get_q;
-  always_ff @(posedge clk_i) begin
-    if (single) late[put_q] <= light_i;
-    if (single) put_q <= put_q + 3'd1;
-    if (singles_q[LATE-1]) get_q <= get_q + 3'd1;
-    if (rst_i) {put_q, get_q} <= '0;
-  end
-  logic [2*W-1:0] late_light;
-  assign late_light = late[get_q];
   logic signed [LOG2-1:0] x;
-  assign x = single ? '0 : (first << jx) ^ LOG2'(8);
+  assign x = (first << jx) ^ LOG2'(8);
 
   for (genvar c = 0; c < 2; c++) begin : g_channel
-    logic signed [W+2:0] ct;
+    logic signed [W+1:0] ct;
     logic signed [W+3:0] r;
     logic signed [W+5:0] u;
     logic signed [W+1:0] s, q;
@@ -147,12 +147,13 @@ module shade_patch_pieces (
     shade_patch_lines u_lines (
       .clk_i, .ct_i(ct), .r_i(r), .u_i(u), .s_i(s), .q_i(q), .p_i(p), .load_i(load), .load_late_i(loads_q[LATE-1]),
       .jy_i(jy), .jy_late_i(jy_late), .step_i(step), .step_late_i(steps_q[LATE-1]), .x_i(x), .jx_i(jx),
-      .single_i(singles_q[LATE-1]), .light_i(late_light[c*W+:W]),
       .first_o(value_o[c*3*VALUE_W+:VALUE_W]), .d1_o(value_o[(c*3+1)*VALUE_W+:VALUE_W]),
       .d2_o(value_o[(c*3+2)*VALUE_W+:VALUE_W])
     );
   end
   shade_valid #(.DEPTH(LATENCY)) u_valid (
-    .clk_i, .rst_i, .valid_i(single || (step && !empty)), .valid_o(value_valid_o)
+    .clk_i, .rst_i, .valid_i(step && !empty), .valid_o(value_valid_o)
   );
+  logic unused_deep;
+  assign unused_deep = &{1'b0, coming_kx, coming_column, deep, ky, line, coming_tag};
 endmodule

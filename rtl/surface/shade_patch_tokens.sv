@@ -7,8 +7,8 @@
 // less than PATCH_SPARE words are free. valid_o and data_o come from registers and hold until ready_i takes them.
 // Latency 3 clocks behind keep_i; one word a clock. Example: words 5, 6 with keep, 7 with drop, 8 with keep -> 5, 6, 8.
 module shade_patch_tokens #(
-  parameter int WIDTH = shade_pkg::PATCH_TOKEN_W,
-  parameter int LOG2  = 9
+  parameter int WIDTH = 2 * shade_pkg::PATCH_TOKEN_W,
+  parameter int LOG2  = shade_pkg::PATCH_WAIT_LOG2
 ) (
   input  logic             clk_i,
   input  logic             rst_i,

@@ -1,159 +1,161 @@
 // SPDX-License-Identifier: Apache-2.0
-// shade_patch_walk: the normals in the middle of a triangle's boxes, found by adding increments.
+// shade_patch_walk: the scalars N.L, N.H, N.N in the middle of a triangle's boxes, from box to box by additions.
 //
-//   triangle_i, corner_i, kx_i, ky_i   of a triangle, taken with triangle_take_o: {Gy, Gx, tag, line, column of its box}, Gx and
-//                            Gy as {exp, z, y, x}; S3.18, the normal in the box's corner
-//   box_i                    of shade_patch_clip, taken with box_ready_o: boxes of a row from left to right, rows downwards
-//   n_o         S1.16        corner + (2^kx column + 2^(kx-1)) Gx + (2^ky row + 2^(ky-1)) Gy, x at bit 0, rounded once,
-//                            saturated; Gx and Gy are cut to 28 fraction bits of a quarter of a box
-//   dx_o, dy_o  S1.16        Gx 2^(kx-2), Gy 2^(ky-2), floor: a quarter of a box
-//   place_o                  {first, direct, deep, pixels, column, line, tag, kx, ky}: first of its triangle; place in the frame
-//   range_o                  for one clock: a component is saturated, this box's light is wrong
+//   slot_*      words of shade_patch_setup, of shade_patch_slots;   place_* {tag, line, column} of the corner of a triangle's box
+//   box_*       of shade_patch_clip: boxes of a row to the right or to the left, rows downwards; the triangle's end
+//   valid_o     it stands in a box: everything until place_o, and what is below for two clocks more, take_i lets it go on
+//   a_o, h_o    N.L S1.17, N.H S1.24 of each light, p_o N.N U1.25; *_column_o, *_line_o: growth by a quarter of a box;
+//               p_columns_o, p_lines_o half of what that grows by, p_both_o: along the other way
+//   place_o     {direct, deep, pixels, kx, ky, column, line, tag}, in the frame
 //
-// Three clocks a triangle and up to eight of a shift by 4 + exp - k, one clock for each row or column of boxes that is stepped over, one for each box. Latency 1 clock.
-// Source: P4's constant increment. Example: N0 = (0, 0, 1), Gx = Gy = 0 -> n = (0, 0, 1), dx = dy = 0.
-module shade_patch_walk (
-  input  logic                                 clk_i,
-  input  logic                                 rst_i,
-  input  logic                                 triangle_valid_i,
-  output logic                                 triangle_take_o,
-  input  logic [shade_pkg::PATCH_TRIANGLE_W-1:0] triangle_i,
-  input  logic [3*shade_pkg::PATCH_CORNER_W-1:0] corner_i,
-  input  logic [                          2:0] kx_i,
-  input  logic [                          2:0] ky_i,
-  input  logic                                 box_valid_i,
-  output logic                                 box_ready_o,
-  input  logic [shade_pkg::PATCH_BOX_W-1:0]    box_i,
-  output logic                                 valid_o,
-  input  logic                                 ready_i,
-  output logic [3*shade_pkg::INTENSITY_W-1:0]  n_o,
-  output logic [3*shade_pkg::INTENSITY_W-1:0]  dx_o,
-  output logic [3*shade_pkg::INTENSITY_W-1:0]  dy_o,
-  output logic [shade_pkg::PATCH_PLACE_W-1:0]  place_o,
-  output logic                                 range_o
+//   a box on, in two clocks, of 4 quarters:  a += 2 a_c;  p_c += 4 p_cc;  p_l += 2 p_cl, twice; p += 4 p_c with the second
+//
+// so that p moves by the slope half way, which is exact. To the left the same subtracted. 4 clocks a box that is next to the one before, 2
+// more for each step, 7 more a triangle. No multiplier. Source: P4's constant increment.
+// Example: a = 0, a_c = 1, boxes 0 and 1 of row 0 -> a = 0, 4.
+module shade_patch_walk #(
+  parameter int LIGHTS = 1
+) (
+  input  logic                                              clk_i,
+  input  logic                                              rst_i,
+  input  logic                                              slot_valid_i,
+  output logic                                              slot_ready_o,
+  input  logic [(2*LIGHTS+2)*shade_pkg::PATCH_SCALAR_W-1:0] slot_i,
+  input  logic                                              place_valid_i,
+  output logic                                              place_ready_o,
+  input  logic [              shade_pkg::PATCH_PLACE_W-1:0] place_i,
+  input  logic                                              box_valid_i,
+  output logic                                              box_ready_o,
+  input  logic [                shade_pkg::PATCH_BOX_W-1:0] box_i,
+  output logic                                              valid_o,
+  input  logic                                              take_i,
+  output logic [LIGHTS*(shade_pkg::DIRECT_DIFFUSE_F+2)-1:0] a_o,
+  output logic [LIGHTS*(shade_pkg::DIRECT_DIFFUSE_F+2)-1:0] a_column_o,
+  output logic [LIGHTS*(shade_pkg::DIRECT_DIFFUSE_F+2)-1:0] a_line_o,
+  output logic [LIGHTS*(shade_pkg::DIRECT_X_F+2)-1:0]       h_o,
+  output logic [LIGHTS*(shade_pkg::DIRECT_X_F+2)-1:0]       h_column_o,
+  output logic [LIGHTS*(shade_pkg::DIRECT_X_F+2)-1:0]       h_line_o,
+  output logic [               shade_pkg::DIRECT_P_OUT_F:0] p_o,
+  output logic [               shade_pkg::DIRECT_P_OUT_F:0] p_column_o,
+  output logic [               shade_pkg::DIRECT_P_OUT_F:0] p_line_o,
+  output logic [               shade_pkg::DIRECT_P_OUT_F:0] p_columns_o,
+  output logic [               shade_pkg::DIRECT_P_OUT_F:0] p_lines_o,
+  output logic [               shade_pkg::DIRECT_P_OUT_F:0] p_both_o,
+  output logic [  shade_pkg::PATCH_META_W+16-1:0]           place_o
 );
-  localparam int STEP_W = shade_pkg::PATCH_STEP_W;
-  localparam int CORNER_W = shade_pkg::PATCH_CORNER_W;
-  localparam int EXP_W = shade_pkg::TRIANGLE_EXP_W;
-  localparam int W = shade_pkg::INTENSITY_W;
+  localparam int A_W = shade_pkg::DIRECT_A_W;
+  localparam int H_W = shade_pkg::DIRECT_H_W;
+  localparam int P_W = shade_pkg::DIRECT_P_W;
+  localparam int IN_W = shade_pkg::PATCH_SCALAR_W;
+  localparam int PLACE_W = shade_pkg::PLACE_W;
   localparam int AT_W = shade_pkg::PATCH_AT_W;
   localparam int LOG2 = shade_pkg::PATCH_LOG2_MAX;
-  localparam int PLACE_W = shade_pkg::PLACE_W;
-  localparam int TAG_W = shade_pkg::TAG_W;
-  localparam int DROP = shade_pkg::PATCH_STEP_F - shade_pkg::INTENSITY_F;
 
-  logic ends, direct;
+  // ---- a triangle: four words of each memory ---------------------------------------------------------------------------------
+  typedef enum logic [2:0] {LOAD, BOX, FIRST, SECOND, HERE, HOLD} state_t;
+  state_t state_q, next;
+  logic [1:0] word_q;
+  logic loads, ends, down_q, left_q;
+  logic [3:0] put;  // which word
+  logic [IN_W-1:0] even, odd;
+  assign slot_ready_o = state_q == LOAD && place_valid_i;
+  assign loads        = slot_ready_o && slot_valid_i;
+  assign put          = loads ? 4'd1 << word_q : '0;
+  assign {odd, even}  = slot_i[2*IN_W-1:0];
+  always_ff @(posedge clk_i) begin
+    if (loads) word_q <= word_q + 2'd1;
+    if (rst_i) word_q <= '0;
+  end
+
+  // ---- where it stands, which box is next ---------------------------------------------------------------------------------------
+  logic direct, here;
   logic [LOG2-1:0] deep;
   logic [15:0] pixels;
-  logic [AT_W-1:0] row, column;
-  assign {ends, direct, deep, pixels, row, column} = box_i;
-
-  // ---- where the walk is ---------------------------------------------------------------------------------------------------
-  typedef enum logic [2:0] {IDLE, SHIFT, RIGHT, DOWN, BOXES} state_t;
-  state_t state_q;
-  logic [AT_W-1:0] row_q, column_q;
-  logic first_q, boxes, next_row, next_column, here, give;
-  assign boxes           = state_q == BOXES && box_valid_i && !ends;
-  assign next_row        = boxes && row != row_q;
-  assign next_column     = boxes && !next_row && column != column_q;
-  assign here            = boxes && row == row_q && column == column_q;
-  assign give            = here && (!valid_o || ready_i);
-  assign box_ready_o     = give || (state_q == BOXES && box_valid_i && ends);
-  assign triangle_take_o = state_q == IDLE && triangle_valid_i;
+  logic [AT_W-1:0] row, column, row_q, column_q;
   logic [2:0] kx_q, ky_q;
-  logic [PLACE_W-1:0] left_q, top_q;
-  logic [TAG_W-1:0] tag_q, tag;
   logic [PLACE_W-1:0] left, top;
-  logic [3*W-1:0] gx0, gy0;
-  logic [EXP_W-1:0] x_exp, y_exp;
-  logic [EXP_W:0] x_q, y_q;  // halvings to come
-  assign {y_exp, gy0, x_exp, gx0, tag, top, left} = triangle_i;
+  logic [shade_pkg::TAG_W-1:0] tag;
+  assign {ends, direct, deep, pixels, row, column} = box_i;
+  assign {tag, top, left} = place_i;
+  assign here          = row == row_q && column == column_q;
+  assign next          = !box_valid_i ? BOX : ends ? LOAD : here ? HERE : FIRST;
+  assign valid_o       = state_q == HERE;
+  assign box_ready_o   = (state_q == HERE && take_i) || place_ready_o;
+  assign place_ready_o = box_valid_i && ends && (state_q == BOX || state_q == SECOND || state_q == HOLD);
+  assign place_o = {direct, deep, pixels, kx_q, ky_q, left + (PLACE_W'(column) << kx_q), top + (PLACE_W'(row) << ky_q), tag};
   always_ff @(posedge clk_i) begin
     case (state_q)
-      IDLE:    if (triangle_valid_i) state_q <= SHIFT;
-      SHIFT:   if (x_q == '0 && y_q == '0) state_q <= RIGHT;
-      RIGHT:   state_q <= DOWN;
-      DOWN:    state_q <= BOXES;
-      default: if (box_valid_i && ends) state_q <= IDLE;
+      LOAD:  if (put[3]) state_q <= BOX;
+      FIRST: state_q <= SECOND;
+      HERE:  if (take_i) state_q <= HOLD;
+      default: begin  // BOX, SECOND, HOLD
+        state_q <= next;
+        down_q  <= row != row_q;
+        left_q  <= row == row_q && column < column_q;
+      end
     endcase
-    if (state_q == IDLE) begin
-      {kx_q, ky_q, left_q, top_q, tag_q} <= {kx_i, ky_i, left, top, tag};
-      {row_q, column_q} <= '0;
-      first_q           <= 1'b1;
-    end
-    if (state_q == IDLE) begin
-      x_q <= (EXP_W + 1)'(x_exp) + (EXP_W + 1)'(4) - (EXP_W + 1)'(kx_i);
-      y_q <= (EXP_W + 1)'(y_exp) + (EXP_W + 1)'(4) - (EXP_W + 1)'(ky_i);
-    end else begin
-      x_q <= x_q > (EXP_W + 1)'(3) ? x_q - (EXP_W + 1)'(4) : x_q - (EXP_W + 1)'(x_q != '0);
-      y_q <= y_q > (EXP_W + 1)'(3) ? y_q - (EXP_W + 1)'(4) : y_q - (EXP_W + 1)'(y_q != '0);
-    end
-    if (next_row) begin
-      row_q    <= row_q + AT_W'(1);
-      column_q <= '0;
-    end
-    if (next_column) column_q <= column_q + AT_W'(1);
-    if (give) begin
-      first_q <= 1'b0;
-      place_o <= {first_q, direct, deep, pixels, left_q + (PLACE_W'(column) << kx_q), top_q + (PLACE_W'(row) << ky_q),
-                  tag_q, kx_q, ky_q};
-    end
-    valid_o <= give || (valid_o && !ready_i);
-    if (rst_i) begin
-      state_q <= IDLE;
-      valid_o <= 1'b0;
-    end
+    if (put[1]) {column_q, kx_q, ky_q} <= even[AT_W+5:0];
+    else if (state_q == FIRST && !down_q) column_q <= left_q ? column_q - AT_W'(1) : column_q + AT_W'(1);
+    if (state_q == LOAD) row_q <= '0;
+    else if (state_q == FIRST && down_q) row_q <= row_q + AT_W'(1);
+    if (rst_i) state_q <= LOAD;
   end
 
-  // ---- normals ---------------------------------------------------------------------------------------------------------------
-  logic [2:0] wide_q;  // n does not fit
-  for (genvar c = 0; c < 3; c++) begin : g_component
-    logic signed [W-1:0] gx, gy;
-    logic signed [CORNER_W-1:0] corner;
-    logic signed [STEP_W-1:0] qx_q, qy_q, at_q, row_at_q, from, step, at;
-    assign gx     = gx0[c*W+:W];
-    assign gy     = gy0[c*W+:W];
-    assign corner = corner_i[c*CORNER_W+:CORNER_W];
-    assign from   = next_row ? row_at_q : at_q;
-    assign step   = state_q == RIGHT ? qx_q <<< 1 : state_q == DOWN ? qy_q <<< 1 : next_row ? qy_q <<< 2 : qx_q <<< 2;
-    assign at     = from + step;
-    always_ff @(posedge clk_i) begin
-      if (state_q == IDLE) begin
-        // a quarter of the largest box
-        qx_q <= STEP_W'(gx) <<< (DROP + shade_pkg::PATCH_LOG2_MAX - 2);
-        qy_q <= STEP_W'(gy) <<< (DROP + shade_pkg::PATCH_LOG2_MAX - 2);
-        at_q <= STEP_W'(corner) <<< (shade_pkg::PATCH_STEP_F - shade_pkg::PATCH_PLAN_F);
-      end else begin
-        if (x_q > (EXP_W + 1)'(3)) qx_q <= qx_q >>> 4;
-        else if (x_q != '0) qx_q <= qx_q >>> 1;
-        if (y_q > (EXP_W + 1)'(3)) qy_q <= qy_q >>> 4;
-        else if (y_q != '0) qy_q <= qy_q >>> 1;
-        if (state_q == RIGHT || state_q == DOWN || next_row || next_column) at_q <= at;
-      end
-      if (state_q == DOWN || next_row) row_at_q <= at;
-    end
-
-    localparam int N_W = STEP_W - DROP;
-    logic signed [N_W-1:0] n_near, dx, dy;
-    logic signed [W-1:0] n_fit;
-    assign n_near = at_q[STEP_W-1:DROP];
-    assign dx     = qx_q[STEP_W-1:DROP];
-    assign dy     = qy_q[STEP_W-1:DROP];
-    shade_limit #(.WIDTH(N_W), .OUT_W(W)) u_fit (.x_i(n_near), .y_o(n_fit));
-    always_ff @(posedge clk_i) begin
-      if (give) begin
-        n_o[c*W+:W]  <= n_fit;
-        dx_o[c*W+:W] <= dx[W-1:0];  // a quarter of a box is short
-        dy_o[c*W+:W] <= dy[W-1:0];
-        wide_q[c]    <= n_near != N_W'(n_fit);
-      end
-    end
-    logic unused_sign;
-    assign unused_sign = &{1'b0, dx, dy};
-  end
-  logic give_q;
+  // ---- the scalars ----------------------------------------------------------------------------------------------------------------
+  logic moves;
+  assign moves = state_q == FIRST || state_q == SECOND;
+  logic [P_W-1:0] p_q, pc_q, pl_q, cc_q, ll_q, cl_q, p_by, pc_by, pl_by, p_sum, pc_sum, pl_sum;
+  logic [2:0] low;
+  assign p_by  = ((down_q ? pl_q : pc_q) << 2) ^ {P_W{left_q}};
+  assign pc_by = (down_q ? cl_q << 1 : cc_q << 2) ^ {P_W{left_q}};
+  assign pl_by = (down_q ? ll_q << 2 : cl_q << 1) ^ {P_W{left_q}};
+  // the carry in is one more bit at the bottom
+  assign {p_sum, low[0]}  = {p_q, 1'b1} + {p_by, left_q};
+  assign {pc_sum, low[1]} = {pc_q, 1'b1} + {pc_by, left_q};
+  assign {pl_sum, low[2]} = {pl_q, 1'b1} + {pl_by, left_q};
   always_ff @(posedge clk_i) begin
-    give_q  <= give && !rst_i;
-    range_o <= give_q && wide_q != '0;
+    if (moves) {pc_q, pl_q} <= {pc_sum, pl_sum};
+    if (state_q == SECOND) p_q <= p_sum;
+    if (put[0]) {p_q, pc_q} <= {even[P_W-1:0], odd[P_W-1:0]};
+    if (put[1]) pl_q <= odd[P_W-1:0];
+    if (put[2]) {cc_q, cl_q} <= {even[P_W-1:0], odd[P_W-1:0]};
+    if (put[3]) ll_q <= even[P_W-1:0];
   end
+  localparam int P_OUT_W = shade_pkg::DIRECT_P_OUT_F + 1;
+  assign p_o         = p_q[P_W-1-:P_OUT_W];
+  assign p_column_o  = pc_q[P_W-1-:P_OUT_W];
+  assign p_line_o    = pl_q[P_W-1-:P_OUT_W];
+  assign p_columns_o = cc_q[P_W-1-:P_OUT_W];
+  assign p_lines_o   = ll_q[P_W-1-:P_OUT_W];
+  assign p_both_o    = cl_q[P_W-1-:P_OUT_W];
+
+  localparam int A_OUT_W = shade_pkg::DIRECT_DIFFUSE_F + 2;
+  localparam int H_OUT_W = shade_pkg::DIRECT_X_F + 2;
+  for (genvar i = 0; i < LIGHTS; i++) begin : g_light
+    logic [A_W-1:0] a_q, ac_q, al_q, a_by, a_sum;
+    logic [H_W-1:0] h_q, hc_q, hl_q, h_by, h_sum;
+    logic [1:0] below;
+    logic [IN_W-1:0] of_l, of_h;
+    assign {of_h, of_l} = slot_i[(2*i+2)*IN_W+:2*IN_W];
+    assign a_by = ((down_q ? al_q : ac_q) << 1) ^ {A_W{left_q}};
+    assign h_by = ((down_q ? hl_q : hc_q) << 1) ^ {H_W{left_q}};
+    assign {a_sum, below[0]} = {a_q, 1'b1} + {a_by, left_q};
+    assign {h_sum, below[1]} = {h_q, 1'b1} + {h_by, left_q};
+    always_ff @(posedge clk_i) begin
+      if (moves) {a_q, h_q} <= {a_sum, h_sum};
+      if (put[0]) {a_q, h_q} <= {of_l[IN_W-1-:A_W], of_h[IN_W-1-:H_W]};
+      if (put[2]) {ac_q, hc_q} <= {of_l[IN_W-1-:A_W], of_h[IN_W-1-:H_W]};
+      if (put[3]) {al_q, hl_q} <= {of_l[IN_W-1-:A_W], of_h[IN_W-1-:H_W]};
+    end
+    assign a_o[i*A_OUT_W+:A_OUT_W]        = a_q[A_W-1-:A_OUT_W];
+    assign a_column_o[i*A_OUT_W+:A_OUT_W] = ac_q[A_W-1-:A_OUT_W];
+    assign a_line_o[i*A_OUT_W+:A_OUT_W]   = al_q[A_W-1-:A_OUT_W];
+    assign h_o[i*H_OUT_W+:H_OUT_W]        = h_q[H_W-1-:H_OUT_W];
+    assign h_column_o[i*H_OUT_W+:H_OUT_W] = hc_q[H_W-1-:H_OUT_W];
+    assign h_line_o[i*H_OUT_W+:H_OUT_W]   = hl_q[H_W-1-:H_OUT_W];
+    logic unused_below;
+    assign unused_below = &{1'b0, below, of_l, of_h};
+  end
+  logic unused_low;
+  assign unused_low = &{1'b0, low, even, odd};
 endmodule

@@ -3,8 +3,8 @@
 //
 //   rho = c0 + s d,  s = c1 + c2 d          a parabola of P for each 1/128 of it, d = P - middle of the segment
 //
-// p_i U1.25, of normals not longer than 1. rho_o S0.25. short_o: P < 1/4, rho_o is then almost 1; long_o: P >= 129/128,
-// rho_o is then none. Roundings to nearest: s to 15 fraction bits, the result to 25; for tiny rho no bit is lost.
+// p_i U1.25. rho_o S0.25. short_o: P < 1/4, rho_o is then almost 1; long_o: P >= 129/128, a normal longer than 1.
+// Roundings to nearest: s to 15 fraction bits, the result to 25; for tiny rho no bit is lost.
 // Error below 3 ulp for P >= 1/2, below 20 (2^-20.7) for P >= 33/128; below that 2^-17.
 // Latency LATENCY_RHO = 8 clocks, one result a clock. Example: P = 1/2 -> rho = 0.41421.
 module shade_rho (
@@ -16,7 +16,7 @@ module shade_rho (
 );
   localparam int P_F = shade_pkg::DIRECT_P_OUT_F;
   localparam int INDEX_W = shade_pkg::RHO_INDEX_W;
-  localparam int D_W = P_F - INDEX_W;
+  localparam int D_W = P_F + 1 - INDEX_W;
   localparam int C0_W = shade_pkg::RHO_C0_W;
   localparam int C1_W = shade_pkg::INTENSITY_W;
   localparam int C2_W = shade_pkg::RHO_C2_W;

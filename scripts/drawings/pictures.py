@@ -135,7 +135,7 @@ PATHS = {  # path: what it takes, its stages: module and what it does
     "patch": (
         "surfaces",
         ("patch_plan", "size of boxes"),
-        ("patch_dots", "N·L, N·H, N·N"),
+        ("patch_setup", "N·L, N·H, N·N"),
         ("patch_nodes", "six a box"),
         ("patch_light", "at nodes"),
         ("patch_pieces", "coefficients"),

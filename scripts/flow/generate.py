@@ -176,8 +176,8 @@ RHO_HEADER = """\
 // shade_rho_rom: the table of shade_rho: 1/sqrt(P) - 1 = c0 + c1 d + c2 d^2 on segment i_i / 128 of P.
 //
 // Generated from polyshade.golden.direct.rho_rom by `make generate`: change it there.
-// row_o = {c0, c1, c2}: c0 S1.25; c1 S2.15, negative; c2 U4.7. Row 0: [1, 129/128); rows 1 to 31 are constant.
-// Block RAM or LUTs, as the tool sees fit (7,168 bits). Latency 1 clock, one row a clock.
+// row_o = {c0, c1, c2}: c0 S1.25; c1 S2.15, negative; c2 U4.7. Rows 0 to 31 are constant.
+// Block RAM or LUTs, as the tool sees fit (14,336 bits). Latency 1 clock, one row a clock.
 // Example: i = 64 -> c0 = 1/sqrt(129/256) - 1.
 """
 

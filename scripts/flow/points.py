@@ -42,10 +42,16 @@ POINTS: dict[str, list[Point]] = {
     "shade_horner_pipe": [{"COEF_W": 2, "D_W": 2, "T_F": 2}, {"COEF_W": 30, "D_W": 30}, {"COEF_W": 11, "D_W": 4}],
     "shade_horner_seq": [{"COEF_W": 2, "D_W": 2, "T_F": 2}, {"COEF_W": 30, "D_W": 30}, {"COEF_W": 11, "D_W": 4}],
     "shade_fdiff": grid(COEF_W=[2, 25], D_W=[2], LOG2_MAX=[1, 12]),
-    "shade_patch_norm": [{"WIDTH": 18}],
     "shade_patch_room": [{"LIMIT": 1}],
     "shade_patch_tokens": [{"WIDTH": 1, "LOG2": 5}],
-    "shade_patch": grid(LANES=[2, 4, 8]),
+    "shade_patch": [*grid(LANES=[2, 4, 8]), {"LANES": 4, "LIGHTS": 4}],
+    "shade_scalar_light": grid(SIGNED=[0, 1], MEMORY=[0, 1]),
+    "shade_patch_slots": [{"MEMORIES": 10}, {"WIDTH": 30, "LOG2": 4}],
+    "shade_patch_door": [{"TRIANGLES_LOG2": 1}],
+    **{
+        f"shade_patch_{unit}": grid(LIGHTS=[2, 4])
+        for unit in ("far", "boxes", "setup", "walk", "nodes", "light", "lights")
+    },
     "shade_credit": [{"LOG2": 1}],
     "shade_stable": [{"WIDTH": 1}],
     "shade_fifo": [*grid(WIDTH=[1, 48], LOG2=[1, 4]), {"BLOCK": 1}],

@@ -73,7 +73,7 @@ def measure(scene: Scene, n: float, nodes: str, tolerance: float, weighted: bool
     """Lights a pixel and the NMSE of both channels."""
     material, t = Material("blinn", n), scene.t
     words, _ = patch.registers(material, LIGHT, weighted)
-    words["radius"] = min(int(np.sqrt(2 * tolerance / max(n, 2)) * 65536), 1 << 15)
+    words = words._replace(radius=min(int(np.sqrt(2 * tolerance / max(n, 2)) * 65536), 1 << 15))
     kx, ky, curved = patch.plan(t, words)
     of, x, y = scene.of, scene.x, scene.y
     key = (of << 24) | (y >> ky[of]) << 12 | x >> kx[of]

@@ -23,9 +23,9 @@ def _rho(form: str) -> Iterator[Case]:
         return dict(zip(("rho_o", "short_o", "long_o"), direct.rho(i["p_i"]), strict=True))
 
     def exact(i: Arrays) -> Arrays:
-        """Next to 1/4 the table gives up 2^-17, and beyond 1/4 and 129/128 it is told: nothing to compare with."""
+        """Next to 1/4 the table gives up 2^-17, and below 1/4 it is told: nothing to compare with."""
         p = np.ldexp(np.maximum(i["p_i"], 1).astype(Real), -k.DIRECT_P_OUT_F)
-        within = (p >= 33 / 128) & (p < 129 / 128)
+        within = p >= 33 / 128
         return golden(i) | {"rho_o": np.where(within, np.ldexp(1 / np.sqrt(p) - 1, k.RHO_F), golden(i)["rho_o"])}
 
     def random(rng: np.random.Generator, rows: int) -> Arrays:

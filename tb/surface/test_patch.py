@@ -54,6 +54,19 @@ def test_triangles_of_all_kinds(lanes: int) -> None:
         assert (drawn.mismatches, drawn.first_mismatch, drawn.counter_mismatches) == (0, {}, {})
 
 
+@pytest.mark.parametrize(("lights", "lanes"), [(2, 1), (4, 4)])
+def test_several_lights(lights: int, lanes: int) -> None:
+    """Their sum, on the same clocks a pixel as one light."""
+    directions = np.array([LIGHT, (-0.8, 0.2, 0.4), (0.1, -0.7, 0.3), (0.5, 0.5, -0.2)])[:lights]
+    given = scene("sphere", 256)
+    one, drawn = (patch.draw(given, Material("blinn", 32), at, lanes=lanes) for at in (LIGHT, directions))
+    assert (drawn.mismatches, drawn.first_mismatch, drawn.counter_mismatches) == (0, {}, {})
+    assert drawn.pixels.sum() > 1.2 * one.pixels.sum()
+    rng = np.random.default_rng(SEED)
+    drawn = patch.draw(triangles(rng, 300), Material("blinn", 100), directions, lanes=lanes, seed=SEED, out_stall=0.2)
+    assert (drawn.mismatches, drawn.first_mismatch, drawn.counter_mismatches) == (0, {}, {})
+
+
 def test_speed() -> None:
     """A large triangle keeps all lanes busy; small ones cost what the input costs."""
     large = triangles(np.random.default_rng(7), 60)
@@ -68,11 +81,11 @@ def test_speed() -> None:
 def damaged(case: str) -> tuple[dict, Triangles, int, int]:
     """Packets of which one is wrong; the triangles that are drawn nevertheless, the error's bit and how often."""
     given = triangles(np.random.default_rng(5), 40)
-    _, table = golden.registers(Material(), LIGHT)
-    stream = patch.beats(given, table)
+    _, lobe = golden.registers(Material(), LIGHT)
+    stream = patch.beats(given, lobe)
     runs = np.bincount(given.triangle)
     victim = int(np.flatnonzero(runs > 4)[1])
-    first = 512 + k.TRIANGLE_BEATS * victim + int(runs[:victim].sum())  # its first beat
+    first = patch.LOBE_BEATS + k.TRIANGLE_BEATS * victim + int(runs[:victim].sum())  # its first beat
     run = first + k.TRIANGLE_BEATS
     others = np.arange(len(runs)) != victim
     data, last = stream["s_axis_surface_tdata"], stream["s_axis_surface_tlast"]
@@ -117,9 +130,9 @@ def damaged(case: str) -> tuple[dict, Triangles, int, int]:
 def test_bad_packets(case: str) -> None:
     """What is wrong is dropped, told and counted; all else is drawn to the bit."""
     stream, left, bit, count = damaged(case)
-    words, table = golden.registers(Material(), LIGHT)
+    words, lobe = golden.registers(Material(), LIGHT)
     run = sim.load("shade_patch", LANES=2).run(**stream, **patch.settings(words), seed=SEED, out_stall=0.3)
-    wanted = golden.draw(model(left), words, table)
+    wanted = golden.draw(model(left), words, lobe)
     user = (wanted.line << k.PLACE_W | wanted.column) << k.TAG_W | wanted.tag
     expected = np.stack([user, wanted.pixels[:, 0] | wanted.pixels[:, 1] << k.PIXEL_W, wanted.last], axis=-1)
     actual = patch.streams(run.outputs, 2)
@@ -139,13 +152,13 @@ def test_cocotb(point):
 def packets(bench: Bench, count: int) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
     """Beats of the table and of triangles, and the pixels of these, sorted; drives the settings."""
     given = triangles(bench.rng, count, 48)
-    words, table = golden.registers(Material(), LIGHT)
+    words, lobe = golden.registers(Material(), LIGHT)
     for name, value in patch.settings(words).items():
         getattr(bench.dut, name).value = int(value)
-    stream = patch.beats(given, table)
-    names = [SURFACE + name for name in ("tdata", "tuser", "tlast")]
+    stream = patch.beats(given, lobe)
+    names = [SURFACE + name for name in ("tdata", "tlast")]
     beats = list(zip(*(stream[name].tolist() for name in names), strict=True))
-    wanted = golden.draw(model(given), words, table)
+    wanted = golden.draw(model(given), words, lobe)
     user = (wanted.line << k.PLACE_W | wanted.column) << k.TAG_W | wanted.tag
     pixels = zip(
         user.tolist(), (wanted.pixels[:, 0] | wanted.pixels[:, 1] << k.PIXEL_W).tolist(), wanted.last.tolist(),
@@ -155,7 +168,7 @@ def packets(bench: Bench, count: int) -> tuple[list[tuple[int, int, int]], list[
 
 
 def setup(bench: Bench, stall: float = 0.0) -> tuple[Source, Sink]:
-    source = Source(bench, SURFACE + "tvalid", SURFACE + "tready", [SURFACE + n for n in ("tdata", "tuser", "tlast")])
+    source = Source(bench, SURFACE + "tvalid", SURFACE + "tready", [SURFACE + n for n in ("tdata", "tlast")])
     return source, Sink(bench, PIXEL + "tvalid", PIXEL + "tready", PAYLOAD, stall)
 
 
@@ -182,9 +195,10 @@ async def resets(bench: Bench) -> None:
     """One clock of reset at any moment, with ready at 1 and at 0: the next packets are drawn as if they were first."""
     source, sink = setup(bench)
     beats, expected = packets(bench, 8)
+    head = patch.LOBE_BEATS
     for round_ in range(6):
         sink.stall = float(round_ % 2)
-        await source.send(beats[: 512 + int(bench.rng.integers(1, len(beats) - 512))], 0.0)
+        await source.send(beats[: head + int(bench.rng.integers(1, len(beats) - head))], 0.0)
         await bench.tick(int(bench.rng.integers(0, 120)))
         source.withdraw()
         await bench.reset(1)

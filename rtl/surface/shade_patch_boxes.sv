@@ -10,7 +10,7 @@
 //   s_axis_surface, table_*, shift_o, error_o   see shade_patch_door;   h_i, radius_i, reach_i: see shade_patch_far and _plan
 //   beat_*, plan_*, done_i   of shade_patch_setup;   place_*, box_* of shade_patch_walk;   token_* of shade_patch_pieces
 //
-// Streams of FIFOs: valid_o and data from registers until ready_i. Example: a triangle of 4 x 4 pixels and its runs -> four beats, a plan, a place, a box and
+// Streams of FIFOs: valid_o and data from registers until ready_i. Latency of a triangle: some 40 clocks. Example: a triangle of 4 x 4 pixels and its runs -> four beats, a plan, a place, a box and
 // the triangle's end.
 module shade_patch_boxes #(
   parameter int LIGHTS = 1

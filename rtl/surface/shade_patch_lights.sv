@@ -7,7 +7,7 @@
 //   light_*     {specular, diffuse}, S1.16 each;   meta_*: see shade_patch_nodes
 //   flags_o     for one clock: bits PATCH_LIGHT_*
 //
-// A light a clock. They wait in FIFOs deep enough for groups of small triangles, which are slow here, to lend their time to
+// A light a clock, some 45 clocks behind the plan of a small triangle. They wait in FIFOs deep enough for groups of small triangles, which are slow here, to lend their time to
 // large ones, which are slow at the pixels. Example: a box of 4 x 4 with 16 pixels -> six lights, one meta.
 module shade_patch_lights #(
   parameter int LIGHTS = 1

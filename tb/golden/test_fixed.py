@@ -9,7 +9,6 @@ from math import floor
 import numpy as np
 import pytest
 from polyshade.golden import fixed
-from polyshade.golden.contract import FORM_PAPER
 
 from tb.runner import SEED
 
@@ -45,15 +44,6 @@ def test_mul() -> None:
     a = [-(1 << 34), (1 << 34) - 1, -1, 0, 12345]
     b = [-(1 << 17), (1 << 17) - 1, -1, 0, -678]
     assert fixed.mul(np.array(a)[:, None], b).tolist() == [[x * y for y in b] for x in a]
-
-
-def test_third_of_all_16_bits() -> None:
-    """Refined: the nearest integer, never a tie. Paper: 43 x / 128, rounded once."""
-    x = np.arange(-(1 << 15), 1 << 15)
-    assert set((3 * fixed.third(x) - x).tolist()) == {-1, 0, 1}
-    paper = fixed.third(x, FORM_PAPER)
-    assert paper.tolist() == [floor(Fraction(43 * int(value), 128) + Fraction(1, 2)) for value in x]
-    assert np.array_equal(fixed.third(-x), -fixed.third(x))
 
 
 def test_third_of_more_bits() -> None:

@@ -73,25 +73,6 @@ def test_out_of_range() -> None:
     assert (int(diffuse), int(told)) == (2 * ONE - 1, flags(k.LIGHT_RANGE, k.LIGHT_SATURATED))
 
 
-def test_quotients() -> None:
-    """g of random cosines against float64, relative to itself."""
-    rng = np.random.default_rng(1)
-    nl, nv, vh = rng.integers(1, ONE, (3, 100_000), endpoint=True)
-    x = rng.integers(0, 1 << k.VERSINE_F - 1, nl.size)  # N.H from 1/2 on, so that its rounding is small
-    a, b, c, nh = (value / ONE for value in (nl, nv, vh, ONE - x / 16))
-    exact = {
-        k.MODEL_BLINN: a,
-        k.MODEL_SCHLICK: nh / (3 * 8 * x / 2**k.VERSINE_F + nh),
-        k.MODEL_COOK_TORRANCE: np.minimum(1, 2 * nh * np.minimum(a, b) / c) / (a * b),
-        k.MODEL_WARD: 1 / np.sqrt(a * b),
-    }
-    for code, expected in exact.items():
-        num, w, e, zero = light.geometry(code, x, nl, nv, vh, 1, 2 * ONE // 3, 4)  # n = 24
-        g = num / ONE * (1 + w / 2**k.FACTOR_F) * 2.0**e
-        assert np.abs(g / expected - 1).max() <= 2**-14  # with the roundings of N.H and of r
-        assert not zero.any()
-
-
 @pytest.mark.parametrize(("model", "value"), [
     *((model, n) for model in ("phong", "blinn", "schlick") for n in (8, 16, 32, 128, 512)),
     *((model, m) for model in PHYSICAL for m in (0.1, 0.2, 0.3)),

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import core, normal, plan, poly
-from polyshade.golden.types import DRAWN, RECORD, pack, unpack, words
+from polyshade.golden.types import RECORD, pack, unpack, words
 from polyshade.sim.sources import label
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, Result, hexadecimal, mixed
 from polyshade.sim.units.normal import unit_vectors
@@ -24,6 +24,7 @@ from polyshade.sim.units.poly import coefficient
 from polyshade.sim.units.spans import CODES, PATHS, Spans, draw_of, port, settings, spans, structure
 
 Rng = np.random.Generator
+CHANNELS = ("diffuse", "specular")
 
 
 class Given(NamedTuple):
@@ -139,10 +140,8 @@ class Stream:
             exact, ideal = self.errors(inputs, given)
             at = int(np.argmax(exact))
             result.max_error_ulp, result.max_error_ideal = float(exact[at]), float(ideal.max()) / ONE
-            result.worst_input = {
-                "item": int(given.owner[at]),
-                "word": at - int(np.searchsorted(given.owner, given.owner[at])),
-            }
+            item = int(given.owner[at])
+            result.worst_input = {"item": item, "word": at - int(np.searchsorted(given.owner, item))}
         return result
 
 
@@ -156,6 +155,16 @@ def axis(name: str, values: list[np.ndarray], width: int, tag: np.ndarray, last:
     """A stream ``m_axis_<name>`` of numbers side by side."""
     data = sum((part & (1 << width) - 1) << width * i for i, part in enumerate(values))
     return {f"m_axis_{name}_tdata": data, f"m_axis_{name}_tuser": tag, f"m_axis_{name}_tlast": last}
+
+
+def under(port: str, values: Arrays) -> Arrays:
+    """The fields of a structure by the name of its port."""
+    return {f"{port}.{name}": np.asarray(value, np.int64) for name, value in values.items()}
+
+
+def axes(port: str, vectors: np.ndarray) -> Arrays:
+    """Vectors (S, 3) by their fields; :func:`vectors`: the other way round."""
+    return {f"{port}.{axis}": vectors[:, i] for i, axis in enumerate("xyz")}
 
 
 # ---- records to pixels ---------------------------------------------------------------------------------------------
@@ -187,9 +196,7 @@ def _noise(rng: Rng, record: Arrays) -> np.ndarray:
 
 def _nodes(record: Arrays) -> np.ndarray:
     """(S, 2, 4)."""
-    return np.stack([[record[f"{c}.n{n}"] for n in range(k.NODE_COUNT)] for c in ("diffuse", "specular")]).transpose(
-        2, 0, 1
-    )
+    return np.stack([np.stack([record[f"{c}.n{n}"] for n in range(k.NODE_COUNT)], -1) for c in CHANNELS], 1)
 
 
 def poly_span(evaluator: int, form: str, **more: int) -> Stream:
@@ -240,18 +247,16 @@ def _span_walk(**parameters: int) -> Stream:
         log2 = poly.span_log2(record["head.count"])[owner]
         nodes, at = _nodes(record), np.arange(k.NODE_COUNT) + np.where(direct, j, 0)[:, None]
         shown = np.where(at[:, None] < 4, np.take_along_axis(nodes[owner], at.clip(max=3)[:, None], -1), 0)
-        words = {
-            f"{c}.n{n}": shown[:, i, n] for i, c in enumerate(("diffuse", "specular")) for n in range(k.NODE_COUNT)
-        }
+        words = {f"{c}.n{n}": shown[:, i, n] for i, c in enumerate(CHANNELS) for n in range(k.NODE_COUNT)}
         words |= {
             "first": (j == 0) | direct, "last": ends(owner, record["head.more"]), "log2": log2,
             "degree": record["head.degree"][owner], "t": j << k.T_F - log2, "tag": record["head.tag"][owner],
         }  # fmt: skip
-        return Given({f"token_o.{name}": v.astype(np.int64) for name, v in words.items()}, owner)
+        return Given(under("token_o", words), owner)
 
     return Stream(
         "shade_span_walk", parameters,
-        lambda *of: {f"record_i.{name}": v for name, v in records(*of).items()}, golden, 2, wakes=2,
+        lambda *of: under("record_i", records(*of)), golden, 2, wakes=2,
         longest=1 << parameters.get("LOG2_MAX", k.LOG2_MAX), credits=1 << parameters.get("CREDIT_LOG2", k.FIFO_LOG2),
     )  # fmt: skip
 
@@ -291,12 +296,8 @@ def pixel_normals(variants=range(8)) -> Stream:
 
     def items(rng: Rng, count: np.ndarray, _kind: Hashable) -> Arrays:
         rows = len(count)
-        any_threshold = np.where(
-            rng.random(rows) < 0.5,
-            rng.integers(-ONE // 8, ONE + ONE // 8, rows),
-            rng.choice([-1, 0, ONE, ONE + 1], rows),
-        )
-        threshold = np.where(rng.random(rows) < 0.8, k.METRIC_THRESHOLD, any_threshold)
+        others = rng.integers(-ONE // 8, ONE + ONE // 8, rows), rng.choice([-1, 0, ONE, ONE + 1], rows)
+        threshold = np.choose(rng.integers(0, 10, rows).clip(max=2), [*others, k.METRIC_THRESHOLD])
         beats = {"s_axis_line_tdata": lines(rng, count).beats()}
         return beats | {"variant_i": rng.choice(variants, rows), "threshold_i": threshold}
 
@@ -333,11 +334,10 @@ def _pixel_points() -> Stream:
     def golden(i: Arrays) -> Given:
         s, draw = Spans.of(i, "span_i"), draw_of(i)
         n, owner = normal.pixel_normals(s.normal, s.step, s.count, s.cosine, draw["variant"], draw["threshold"])
-        words = {f"normal_o.{name}": n[:, i] for i, name in enumerate("xyz")}
         zero, one = np.zeros_like(owner), np.ones_like(owner)
         place = {"slot": zero, "shared": zero, "last": one, "head.count": one, "head.degree": zero, "head.log2": zero}
         place |= {"head.more": 1 - ends(owner), "head.tag": s.tag[owner]}
-        return Given(words | {f"place_o.{name}": v for name, v in place.items()}, owner)
+        return Given(axes("normal_o", n) | under("place_o", place), owner)
 
     return Stream(
         "shade_pixel_points", {}, items, golden, k.LATENCY_PIXEL_NORMALS, kinds=tuple(range(8)), longest=k.PIXELS_MAX,
@@ -361,9 +361,8 @@ def planned(rng: Rng, count: np.ndarray, kind: Hashable) -> Arrays:
     last_degree = np.where(direct, k.DEGREE_DIRECT, rng.integers(0, 4, rows))
     first = (main > 0) & (degree != k.DEGREE_DIRECT)  # the last record shares its first node
     low = np.select([last_degree == k.DEGREE_DIRECT, last_degree == k.DEGREE_CUBIC], [1 + first, 5], last_degree + 2)
-    last_count = rng.integers(
-        low, np.where(last_degree == k.DEGREE_DIRECT, 4, np.maximum(low, (1 << log2) + 1)), endpoint=True
-    )
+    high = np.where(last_degree == k.DEGREE_DIRECT, 4, np.maximum(low, (1 << log2) + 1))
+    last_count = rng.integers(low, high, endpoint=True)
     n = rng.integers(-(1 << 31), 1 << 31, (rows, 3))
     if kind == LIMITS:
         main, last_degree, last_count = 0 * main, 0 * main, 0 * main + 1
@@ -371,11 +370,11 @@ def planned(rng: Rng, count: np.ndarray, kind: Hashable) -> Arrays:
         edges = [most - 1, most - half, most - half - 1, most - 2 * half, -most, half - most, half - most - 1, 0]
         n = rng.choice(edges, (rows, 3))
     g = rng.integers(-(1 << 31), 1 << 31, (rows, 3)) >> rng.integers(0, 31, (rows, 1))
-    job = {f"{name}.{a}": v[:, i] for name, v in (("normal", n), ("increment", g)) for i, a in enumerate("xyz")}
+    job = axes("normal", n) | axes("increment", g)
     job |= {"flat": rng.integers(0, 2, rows), "tag": rng.integers(0, 1 << k.TAG_W, rows)}
     values = (main, log2, degree, last_count, poly.span_log2(last_count), last_degree)
     cut = dict(zip(PLANNED, values, strict=True)) | {"split": (main != 0).astype(np.int64)}
-    return {f"job_i.{name}": v for name, v in job.items()} | {f"plan_i.{name}": v for name, v in cut.items()}
+    return under("job_i", job) | under("plan_i", cut)
 
 
 def vectors(part: Arrays, *names: str) -> Iterator[np.ndarray]:
@@ -390,13 +389,11 @@ def _stretch() -> Stream:
         owner, shift = words.pop("span"), words.pop("step_log2")
         n, g = vectors(job, "normal", "increment")
         step = plan.wrap(g[owner] << shift[:, None], k.STEP_W)
-        words |= {
-            f"{name}.{a}": v[:, i] for name, v in (("normal", n[owner]), ("step", step)) for i, a in enumerate("xyz")
-        }
+        words |= axes("normal", n[owner]) | axes("step", step)
         fresh = np.append(1, np.diff(owner)) != 0
         words |= {"tag": job["tag"][owner], "flat": job["flat"][owner], "fresh": fresh, "more": 1 - ends(owner)}
         words |= {"single": words["records"] == 1}
-        return Given({f"stretch_o.{name}": v.astype(np.int64) for name, v in words.items()}, owner)
+        return Given(under("stretch_o", words), owner)
 
     return Stream(
         "shade_stretch", {}, planned, golden, lambda i, given: 3 - np.bincount(given.owner),  # taken with its last word
@@ -407,7 +404,7 @@ def _stretch() -> Stream:
 def _places(nodes: plan.Nodes, tag: np.ndarray) -> Arrays:
     """Where nodes stand in their records, by the fields of ``place_t``."""
     head = {name: getattr(nodes, name)[nodes.record] for name in ("count", "more", "degree", "log2")}
-    place = {f"head.{name}": v for name, v in head.items()} | {"head.tag": tag[nodes.span[nodes.record]]}
+    place = under("head", head | {"tag": tag[nodes.span[nodes.record]]})
     return place | {"slot": nodes.slot, "shared": nodes.shared, "last": ends(nodes.record)}
 
 
@@ -416,9 +413,8 @@ def _node_walk(**parameters: int) -> Stream:
         job, cut = structure(i, "job_i"), structure(i, "plan_i")
         nodes = plan.node_walk(*vectors(job, "normal", "increment"), *(cut[name] for name in PLANNED))
         owner = nodes.span[nodes.record]
-        words = {f"place.{name}": v for name, v in _places(nodes, job["tag"]).items()} | {"flat": job["flat"][owner]}
-        words |= {f"normal.{a}": nodes.vector[:, i] for i, a in enumerate("xyz")}
-        return Given({f"node_o.{name}": v for name, v in words.items()}, owner)
+        words = under("place", _places(nodes, job["tag"])) | {"flat": job["flat"][owner]}
+        return Given(under("node_o", words | axes("normal", nodes.vector)), owner)
 
     fold, room = parameters.get("FOLD", 1), parameters.get("CREDIT_LOG2", k.RECORD_FIFO_LOG2)
     return Stream(
@@ -437,11 +433,8 @@ def _line(**parameters: int) -> Stream:
     def golden(i: Arrays) -> Given:
         s = Spans.of(i, "span_i")
         nodes, n, zero, short = plan.line(s.normal, s.step, s.count, draw_of(i), s.flat)
-        words = {f"unit_o.normal.{a}": n[:, i] for i, a in enumerate("xyz")}
-        words |= {"unit_o.zero": zero, "unit_o.too_short": short}
-        return Given(
-            words, nodes.span[nodes.record], {f"place_o.{name}": v for name, v in _places(nodes, s.tag).items()}
-        )
+        words = axes("normal", n) | {"zero": zero, "too_short": short}
+        return Given(under("unit_o", words), nodes.span[nodes.record], under("place_o", _places(nodes, s.tag)))
 
     fold = parameters.get("FOLD", 1)
     return Stream(
@@ -488,12 +481,11 @@ def _lane(form: str = "refined", **more: int) -> Stream:
 
     def golden(i: Arrays) -> Given:
         s = Spans.of(i, "span_i")
-        drawn = core.lane(
-            s.normal, s.step, s.count, draw_of(i), flat=s.flat, cosine=s.cosine, form=FORMS[form], **built
-        )
-        words = {f"drawn_o.pixel.{name}": drawn.pixels[:, i] for i, name in enumerate(("diffuse", "specular"))}
-        words |= {"drawn_o.tag": s.tag[drawn.span], "drawn_o.last": ends(drawn.span)}
-        return Given(words, drawn.span, {"flags_o": drawn.flags})
+        options = {"flat": s.flat, "cosine": s.cosine, "form": FORMS[form]} | built
+        drawn = core.lane(s.normal, s.step, s.count, draw_of(i), **options)
+        words = {f"pixel.{name}": drawn.pixels[:, i] for i, name in enumerate(CHANNELS)}
+        words |= {"tag": s.tag[drawn.span], "last": ends(drawn.span)}
+        return Given(under("drawn_o", words), drawn.span, {"flags_o": drawn.flags})
 
     def normals(path: int) -> bool:
         return path == k.PATH_NORMALS and by_normals
@@ -533,25 +525,19 @@ def _lane(form: str = "refined", **more: int) -> Stream:
 def _paint(**parameters: int) -> Stream:
     def items(rng: Rng, count: np.ndarray, colour: int) -> Arrays:
         rows, most = len(count), (1 << k.PIXEL_W) - 1
-        light = np.where(
-            rng.random((2, rows)) < 0.25, rng.choice([0, most], (2, rows)), rng.integers(0, most, (2, rows))
-        )
-        fields = dict(
-            zip(
-                (leaf.name for leaf in DRAWN.leaves()),
-                (*light, rng.integers(0, 1 << k.TAG_W, rows), rng.integers(0, 2, rows)),
-                strict=True,
-            )
-        )
+        free, corner = rng.integers(0, most, (2, rows)), rng.choice([0, most], (2, rows))
+        light = np.where(rng.random((2, rows)) < 0.25, corner, free)
+        fields = {"pixel.diffuse": light[0], "pixel.specular": light[1], "last": rng.integers(0, 2, rows)}
+        fields["tag"] = rng.integers(0, 1 << k.TAG_W, rows)
         draw = settings(rng, k.MODEL_BLINN) | {"colour": colour}
-        return {f"drawn_i.{name}": v for name, v in fields.items()} | port(draw)
+        return under("drawn_i", fields) | port(draw)
 
     def golden(i: Arrays) -> Given:
         drawn = structure(i, "drawn_i")
         light = np.stack([drawn["pixel.diffuse"], drawn["pixel.specular"]], -1)
         words = dict(zip(("pixel.red", "pixel.green", "pixel.blue"), core.paint(light, draw_of(i)).T, strict=True))
         words |= {"tag": drawn["tag"], "last": drawn["last"]}
-        return Given({f"painted_o.{name}": v for name, v in words.items()}, np.arange(len(light)))
+        return Given(under("painted_o", words), np.arange(len(light)))
 
     return Stream(
         "shade_paint", parameters, items, golden, k.LATENCY_PAINT, kinds=(1, 0), lengths=(1,),

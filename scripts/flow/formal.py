@@ -92,6 +92,7 @@ ALL = [
     Proof("span_walk", ("shade_span_walk",), quick=False),
     Proof("node_walk", ("shade_node_walk",), depth=12, quick=False),
     Proof("door", ("shade_door",)),
+    Proof("room", ("shade_patch_room",)),
     Proof("registers", ("shade_registers",), depth=40, quick=False),
     Proof("collect", ("shade_collect",), quick=False),
     *(

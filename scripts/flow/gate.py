@@ -47,6 +47,7 @@ from tqdm import tqdm
 OUT = BUILD / "gate.json"
 WORK = BUILD / "gate"
 VECTORS = 100_000
+MODULE = re.compile(r"^(?:\(\*[^\n]*\*\)\s*)*(module (\w+).*?^endmodule)", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -54,21 +55,13 @@ class Family:
     """How Yosys maps to a family, and how it reads the simulation models of its cells."""
 
     synthesis: str
-    models: str
+    models: str  # a file of Yosys'
+    options: str
 
 
 FAMILIES = {
-    "ecp5": Family(
-        "synth_ecp5",
-        (
-            "read_verilog -overwrite -DNO_INCLUDES -I{share}/ecp5 {share}/ecp5/cells_sim.v\n"
-            "read_verilog -overwrite blocks.v"
-        ),
-    ),
-    "ice40": Family(  # with the multipliers of an UP5K
-        "synth_ice40 -dsp",
-        "read_verilog -overwrite -DNO_ICE40_DEFAULT_ASSIGNMENTS {share}/ice40/cells_sim.v",
-    ),
+    "ecp5": Family("synth_ecp5", "ecp5/cells_sim.v", "-DNO_INCLUDES -I{share}/ecp5"),
+    "ice40": Family("synth_ice40 -dsp", "ice40/cells_sim.v", "-DNO_ICE40_DEFAULT_ASSIGNMENTS"),  # multipliers: of UP5K
 }
 
 
@@ -164,16 +157,18 @@ def netlist(family: str, module: str, point: Point) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     files, chosen = reached(module), tools.chparam(point)
     share = Path(find_spec("pyosys").origin).parent / "share"
-    script = f"""
+    synthesis = f"""
         read_verilog -noassert -sv {" ".join(os.path.relpath(path, folder) for path in files)}
         hierarchy -check -top {module}{chosen}
         rename -top {module}
         {FAMILIES[family].synthesis} -top {module}
         select {module}
         write_rtlil -selected mapped.il
-        design -reset
+    """
+    models = f"""
         read_rtlil mapped.il
-        {FAMILIES[family].models.format(share=share)}
+        read_verilog -overwrite {FAMILIES[family].options.format(share=share)} cells.v
+        {"read_verilog -overwrite blocks.v" if family == "ecp5" else ""}
         hierarchy -check -top {module}
         proc
         flatten
@@ -181,13 +176,30 @@ def netlist(family: str, module: str, point: Point) -> Path:
         opt_clean
         write_verilog -noattr netlist.v
     """
-    told = [script, blocks_ecp5(), [path.read_bytes() for path in files], version("pyosys")]
+    told = [synthesis, models, blocks_ecp5(), [path.read_bytes() for path in files], version("pyosys")]
     key, stamp, made = hashlib.sha256(repr(told).encode()).hexdigest(), folder / "key", folder / "netlist.v"
     if not (stamp.exists() and made.exists() and stamp.read_text() == key):
         (folder / "blocks.v").write_text(blocks_ecp5())
-        tools.yosys(script, folder)
+        tools.yosys(synthesis, folder)
+        cells = (share / FAMILIES[family].models).read_text()
+        (folder / "cells.v").write_text(used(cells, (folder / "mapped.il").read_text()))
+        tools.yosys(models, folder)
         stamp.write_text(key)
     return made
+
+
+def used(models: str, netlist: str) -> str:
+    """The models of the cells in a netlist, and of the cells in these, without attributes.
+
+    To read them all takes most of a minute.
+    """
+    texts = {found[2]: found[1] for found in MODULE.finditer(models)}
+    names, todo = set(), {name for name in re.findall(r"\w+", netlist) if name in texts}
+    while todo:
+        names |= todo
+        todo = {name for known in todo for name in re.findall(r"\w+", texts[known]) if name in texts} - names
+    kept = MODULE.sub(lambda found: found[1] if found[2] in names else "", models)
+    return f"{kept}\nmodule none ();\nendmodule\n"  # Yosys refuses a file without any
 
 
 def spread(chunks: Iterator[Arrays], total: int) -> Iterator[Arrays]:

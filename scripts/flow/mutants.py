@@ -180,6 +180,8 @@ def _read(target: Target, files: list[Path], folder: Path, changed: dict[str, st
         rename -top {target.top}
         proc
         opt -purge
+        memory_collect
+        opt_clean
         write_rtlil plain.il
     """
     tools.yosys(script, folder)

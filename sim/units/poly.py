@@ -161,7 +161,10 @@ def _fdiff(form: str) -> Iterator[Case]:
         count = count[np.cumsum(count) <= rows]
         count = np.r_[count, np.ones(rows - count.sum(), int)]
         log2 = np.resize(log2, len(count))
-        segments = spread(mixed(ranges)(rng, len(count)) | {"log2_i": log2}, count)
+        first = mixed(ranges)(rng, len(count)) | {"log2_i": log2}
+        tie = near_tie(rng, log2, count)
+        chosen = (rng.random(len(log2)) < 0.25) & (count > 1) & (log2 > 0)
+        segments = spread(first | {name: np.where(chosen, tie[name], first[name]) for name in tie}, count)
         noise = mixed(ranges)(rng, rows)
         return segments | {name: np.where(segments["first_i"], segments[name], noise[name]) for name in names}
 
@@ -180,6 +183,22 @@ def _fdiff(form: str) -> Iterator[Case]:
         "shade_fdiff", form, {"COEF_W": 4, "D_W": 4, "LOG2_MAX": 3}, golden, exact, exact, None, all_of,
         k.LATENCY_FDIFF, ordered=True,
     )  # fmt: skip
+
+
+def near_tie(rng: np.random.Generator, log2: np.ndarray, count: np.ndarray) -> Arrays:
+    """Coefficients by which a pixel of an odd index lies up to three units of the last bit of its sum below a half.
+
+    In these units, with L = log2, the value is a j^3 + 2^L b j^2 + 2^2L c j: three digits, found one after the other.
+    """
+    found: dict[str, list[int]] = {"a_i": [], "b_i": [], "c_i": []}
+    for bits, pixels in zip(log2.tolist(), count.tolist(), strict=True):
+        base, j = 1 << bits, int(rng.integers(0, max(pixels // 2, 1))) * 2 + 1
+        rest, inverse = (1 << max(3 * bits - 1, 0)) - int(rng.integers(1, 4)), pow(j, -1, base)
+        for name, power in zip(found, (3, 2, 1), strict=True):
+            digit = rest * inverse**power % base
+            rest = rest - digit * j**power >> bits
+            found[name].append(digit)
+    return {name: np.array(digits, np.int64) for name, digits in found.items()}
 
 
 def spread(segments: Arrays, count: np.ndarray) -> Arrays:

@@ -77,10 +77,10 @@ def items() -> Iterator[Item]:
     for module, path in modules().items():
         yield Item(f"mirror {module}", partial(mirror, module, path))
     for module in [*modules(), *comparisons()]:
-        for point in REFUSED.get(module, []):
-            yield Item(f"refused {label(module, point)}", partial(refused, module, point))
+        for number, point in enumerate(REFUSED.get(module, [])):
+            yield Item(f"refused {label(module, point)}", partial(refused, module, point), number > 1)
         for number, point in enumerate(points(module)):
-            yield Item(f"verilator {label(module, point)}", partial(verilator, module, point))
+            yield Item(f"verilator {label(module, point)}", partial(verilator, module, point), number > 1)
             yield Item(f"yosys {label(module, point)}", partial(yosys, module, point), number > 0)
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every check of ``make lint`` as a test of its own; the netlists of most points only in ``make test-all``."""
+"""Every check of ``make lint`` as a test of its own; most parameter points only in ``make test-all``."""
 
 import pytest
 from polyshade.scripts.flow import lint
 
 
 def checks() -> list:
-    """Yosys and Verible read the default point and the next one, the other tools all of them."""
+    """Verilator reads the first two points of a module, Yosys the first."""
     return [
         pytest.param(item, id=item.name.replace(" ", "-"), marks=pytest.mark.full if item.slow else ())
         for item in lint.items()

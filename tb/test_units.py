@@ -40,10 +40,11 @@ def of_all() -> Iterator[tuple]:
 
 
 def at_points() -> Iterator[tuple]:
-    """Every module at every point of its cases; those between the first and the last are left to ``make test-all``."""
+    """Every module at every point of its cases; by default the first one, and of what is folded the last one."""
     found = {}
     for case, number, count in ranked([case for case in CASES if not case.own_bench], "module"):
-        marks = pytest.mark.full if 0 < number < count - 1 else ()
+        folded = number == count - 1 and case.clocks_per_vector > 1
+        marks = () if number == 0 or folded else pytest.mark.full
         name = label(case.module, case.parameters)
         found[name] = pytest.param(case.module, case.parameters, id=name, marks=marks)
     yield from found.values()
@@ -84,7 +85,10 @@ def test_stream_cocotb(stream: Stream) -> None:
     simulate(stream.module, stream.parameters, "tb.stream_bench")
 
 
-@pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.4, 0), (0, 0.4), (0.3, 0.3)])
+PAUSES = [(0, 0), (0.3, 0.3), *(pytest.param(*pause, marks=pytest.mark.full) for pause in ((0.4, 0), (0, 0.4)))]
+
+
+@pytest.mark.parametrize(("in_gap", "out_stall"), PAUSES)
 @pytest.mark.parametrize("stream", [*streams_at_points(slow=False)])
 def test_stream_numpy(stream: Stream, in_gap: float, out_stall: float) -> None:
     """Thousands of items of every kind; a word a clock, or as many as there is work for."""

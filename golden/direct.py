@@ -229,7 +229,7 @@ def direct(tdata: ArrayLike, tlast: ArrayLike, l: ArrayLike, h: ArrayLike, lobe:
     """Packets of triangles with their runs, beat by beat (``shade_direct``). ``lobe``: as it is in the table.
 
     Packets of the lobe are not among them. A packet without runs is dropped; so is a run of no pixels (of a
-    triangle's last one nothing is told), of more than 4096, or not below the last good one.
+    triangle's first and last one nothing is told), of more than 4096, or not below the last good one.
     """
     tdata, tlast = np.asarray(tdata, np.uint64), np.asarray(tlast, np.int64)
     first = np.r_[0, np.flatnonzero(tlast) + 1][:-1] if tlast.size else np.zeros(0, np.int64)
@@ -249,7 +249,7 @@ def direct(tdata: ArrayLike, tlast: ArrayLike, l: ArrayLike, h: ArrayLike, lobe:
     last_run = number == runs_of[owner] - 1
     good, order = _in_order(run["line"], run["count"], number == 0)
     empty, long = run["count"] == 0, run["count"] > k.PIXELS_MAX
-    bits = {k.DIRECT_EMPTY: empty & ~last_run, k.DIRECT_LONG: long, k.DIRECT_ORDER: order}
+    bits = {k.DIRECT_EMPTY: empty & ~last_run & (number != 0), k.DIRECT_LONG: long, k.DIRECT_ORDER: order}
     bad = np.any(list(bits.values()), axis=0)
 
     found = setup(

@@ -19,15 +19,15 @@ The sums are exact; 1/A has the mantissa of :func:`reciprocal`, the same for all
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import contract as k
-from .fixed import Int, integers, round, wrap
+from .fixed import Int, integers, limit, round, wrap
 from .stream import walk
-from .types import VERTEX, pack
+from .types import RUN, TRIANGLE, VERTEX, pack
 
 ONE = 1 << k.SUBPIXEL_F
 HALF = ONE // 2
@@ -65,6 +65,12 @@ class View:
     cull: int = k.CULL_BACK
     flat: int = 0
 
+    @property
+    def ports(self) -> dict[str, int]:
+        """As the leaves of ``view_i``."""
+        parts = {"columns": self.columns, "lines": self.lines, "cull": self.cull, "flat": self.flat}
+        return {f"view_i.{name}": value for name, value in parts.items()}
+
 
 @dataclass(frozen=True)
 class Scanned:
@@ -90,6 +96,8 @@ class Scanned:
     faults: dict[str, int]
     culled: int
     empty: int
+    steep: int  # triangles with a component that is constant, as its increments do not fit
+    ended: Int | None = None  # (T,) 1: an empty run stands behind those of the triangle; None: behind none
 
 
 def reciprocal(a: ArrayLike) -> tuple[Int, Int]:
@@ -182,11 +190,17 @@ def twice_area(v: Vertices) -> Int:
 
 def setup(v: Vertices, flat: int = 0) -> tuple[Int, Int]:
     """Increments of normal and depth per column and line (T, 4); of both 0 where one does not fit (``shade_setup``)."""
+    dcolumn, dline, _ = _setup(v, flat)
+    return dcolumn, dline
+
+
+def _setup(v: Vertices, flat: int) -> tuple[Int, Int, NDArray[np.bool_]]:
+    """The same, and where they fit."""
     area = twice_area(v)
     sign = np.sign(area)
     r, e = reciprocal(np.abs(area))
     dx, dy = v.x[:, 1:] - v.x[:, :1], v.y[:, 1:] - v.y[:, :1]
-    found = np.zeros((2, len(v), COMPONENTS), np.int64)
+    found, every = np.zeros((2, len(v), COMPONENTS), np.int64), np.ones((len(v), COMPONENTS), bool)
     for c in range(COMPONENTS):
         depth = c == COMPONENTS - 1
         value = v.depth if depth else v.normal[:, :, c]
@@ -195,7 +209,8 @@ def setup(v: Vertices, flat: int = 0) -> tuple[Int, Int]:
         line, wide_line = gradient(-sign * cross(value[:, 0], dx[:, 1], value[:, 1], dx[:, 0]), r, e, depth)
         fits = (wide_column | wide_line) == 0
         found[:, :, c] = np.where(fits, column, 0), np.where(fits, line, 0)
-    return found[0], found[1]
+        every[:, c] = fits
+    return found[0], found[1], every
 
 
 def plane(v: Vertices, dcolumn: Int, dline: Int, column: ArrayLike, line: ArrayLike) -> Int:
@@ -245,7 +260,7 @@ def scan(v: Vertices, view: View) -> Scanned:
     kept = take(v, index)
     triangle, line, column, count = raster(kept, view)
     hit, at = np.unique(triangle, return_index=True)
-    dcolumn, dline = setup(kept, view.flat)
+    dcolumn, dline, fits = _setup(kept, view.flat)
     shown, dcolumn, dline = take(kept, hit), dcolumn[hit], dline[hit]
     low = np.maximum(line_of(shown.x.min(axis=1)), 0)
     columns = np.minimum(line_of(shown.x.max(axis=1)), view.columns) - low
@@ -267,6 +282,7 @@ def scan(v: Vertices, view: View) -> Scanned:
         faults={"packet": 0} | {name: int(rows.sum()) for name, rows in bad.items()},
         culled=int(culled.sum()),
         empty=len(index) - len(hit),
+        steep=int((~fits[hit]).any(axis=1).sum()),
     )
 
 
@@ -283,11 +299,114 @@ def starts(s: Scanned) -> Int:
 
 
 def depths(s: Scanned) -> tuple[Int, Int, Int, Int]:
-    """(run, column, line, depth U0.24) of every pixel: the plane's depth, cut, not below 0 nor above 1 - 2^-24."""
+    """(run, column, line, depth U0.24) of every pixel: the plane's depth, cut, from 0 to FARTHEST."""
     run, step = walk(s.count)
     value = wrap(starts(s)[run, 3] + s.dcolumn[s.triangle[run], 3] * step, k.STEP_W)
-    limit = (1 << k.DEPTH_F) - 1
-    return run, s.column[run] + step, s.line[run], np.clip(value >> k.PLANE_F - k.DEPTH_F, 0, limit)
+    return run, s.column[run] + step, s.line[run], np.clip(value >> k.PLANE_F - k.DEPTH_F, 0, FARTHEST)
+
+
+FARTHEST = (1 << k.DEPTH_F) - 2
+"""Depth of a pixel that is farther away than all; one more is that of a place without a triangle."""
+
+
+def depth(s: Scanned, memory: Int) -> tuple[Scanned, Int]:
+    """What of the runs is seen: nearer than the memory (4096, 4096) and all pixels before; and the memory behind it
+    (``shade_depth``).
+    """
+    run, column, line, deep = depths(s)
+    place = line << k.PLACE_W | column
+    nearest = memory[line, column].copy()
+    order = np.argsort(place, kind="stable")
+    group = np.cumsum(np.diff(place[order], prepend=-1) != 0)  # the pixels of a place, in the order of drawing
+    drop = (group[-1:] - group) << k.DEPTH_F + 1  # more than what any pixel of a group has to one before it
+    least = np.minimum.accumulate(deep[order] + drop) - drop
+    before = np.r_[0, least][:-1]
+    nearest[order] = np.where(np.diff(group, prepend=0) != 0, nearest[order], np.minimum(nearest[order], before))
+    seen = deep < nearest
+    after = memory.copy()
+    np.minimum.at(after, (line, column), deep)
+
+    goes_on = np.r_[False, seen[:-1] & (run[1:] == run[:-1])][: len(run)]
+    opened = seen & ~goes_on  # a stretch of pixels begins
+    stretch = (np.cumsum(opened) - 1)[seen]
+    at, count = np.flatnonzero(opened), np.bincount(stretch, minlength=opened.sum())
+    triangle = s.triangle[run[at]]
+    kept, of = np.unique(triangle, return_inverse=True)
+    last = np.r_[np.flatnonzero(np.diff(s.triangle[run])), len(run) - 1][: len(run)]  # the last pixel of each triangle
+    ended = np.zeros(len(s.index), np.int64)
+    ended[s.triangle[run[last]]] = ~seen[last] & ~goes_on[last]
+    some = {
+        name: getattr(s, name)[kept] for name in ("index", "plane", "dcolumn", "dline", "box", "narrow", "tag", "flat")
+    }
+    runs = {"triangle": of, "column": column[at], "line": line[at], "count": count}
+    return replace(s, **some, **runs, ended=ended[kept]), after
+
+
+def heads(s: Scanned) -> tuple[dict[str, Int], NDArray[np.bool_]]:
+    """The leaves of the packets TRIANGLE (N,) by name, and the runs (S,) with which they begin.
+
+    One begins with a triangle's first run, with every run of one whose increments do not fit, and with one that is on
+    the line of the run before.
+    """
+    first = np.diff(s.triangle, prepend=-1) != 0
+    opened = first | _again(s) | (s.narrow[s.triangle] == 0)
+    t, at = s.triangle[opened], np.flatnonzero(opened)
+    fits = (s.narrow[t] == 1)[:, None]
+    columns, lines, left = np.where(fits, s.box[t, 2:], np.stack([s.count[at], 1 + 0 * at, 0 * at], axis=-1)).T
+    values = {"columns": columns, "lines": lines, "left": left, "tag": s.tag[t], "flat": s.flat[t]}
+    normal, _ = growth(np.where(fits, s.plane[t, :3], starts(s)[at, :3]), 0)
+    dcolumn, values["dcolumn.exp"] = growth(np.where((columns == 1)[:, None], 0, s.dcolumn[t, :3]), 15)
+    dline, values["dline.exp"] = growth(np.where((lines == 1)[:, None], 0, s.dline[t, :3]), 15)
+    for name, vector in (("normal", normal), ("dcolumn.mantissa", dcolumn), ("dline.mantissa", dline)):
+        values |= {f"{name}.{axis}": vector[:, i] for i, axis in enumerate("xyz")}
+    return values, opened
+
+
+def _again(s: Scanned) -> NDArray[np.bool_]:
+    """Runs on the line of the one before, of a triangle whose increments fit: an empty run ends the packet before."""
+    same = (np.diff(s.triangle, prepend=-1) == 0) & (np.diff(s.line, prepend=-1) == 0)
+    return same & (s.narrow[s.triangle] == 1)
+
+
+def packets(s: Scanned) -> dict[str, NDArray]:
+    """The runs as packets TRIANGLE and RUN: ``s_axis_surface_tdata`` and ``_tlast`` (``shade_packets``)."""
+    values, opened = heads(s)
+    narrow, again = s.narrow[s.triangle] == 1, _again(s)
+    site = s.box[s.triangle, :2]
+    moved = opened & narrow & np.any(site != np.stack([s.column, s.line], axis=-1), axis=1)
+    closing = np.diff(s.triangle, append=-1) != 0  # the last run of its triangle
+    ended = (s.ended[s.triangle] if s.ended is not None else 0 * s.triangle) == 1
+    follows = closing & ended & narrow
+
+    def run(column: Int, line: Int, count: ArrayLike) -> NDArray[np.uint64]:
+        return pack(RUN, {"column": column, "line": line, "count": count}).view(np.uint64)[:, 0]
+
+    # of each run: an empty one that ends a packet, a head, an empty one at its pixel, itself, an empty one
+    beats = np.zeros((len(s.count), 4 + k.TRIANGLE_BEATS), np.uint64)
+    beats[opened, 1:-3] = pack(TRIANGLE, values).view(np.uint64)
+    beats[:, -3], beats[:, -2] = run(*site.T, 0), run(s.column, s.line, s.count)
+    head = [opened] * k.TRIANGLE_BEATS
+    used = np.stack([again, *head, moved, again | True, follows], axis=1)
+    ends = (closing & ~ended) | ~narrow
+    last = np.stack([again, *(0 * part for part in head), 0 * moved, ends, follows], axis=1)
+    return {"s_axis_surface_tdata": beats[used], "s_axis_surface_tlast": last[used].astype(np.int64)}
+
+
+surfaces = packets
+"""Vertices to packets (``shade_surfaces``): the same, of what :func:`scan` found."""
+
+
+def growth(vector: Int, most: int) -> tuple[Int, Int]:
+    """Increments S2.29 as mantissas S1.16 and the largest exponent, up to ``most``, with which all of them fit.
+
+    >>> [v.tolist() for v in growth(np.array([[1 << 25, 0, -5]]), 15)]
+    [[[65536, 0, 0]], [4]]
+    """
+    exp = np.zeros(len(vector), np.int64)
+    for step in (8, 4, 2, 1):
+        fits = np.all((vector << (exp + step)[:, None] >> k.STEP_F + 1) + 1 >> 1 == 0, axis=1) & (exp + step <= most)
+        exp += step * fits
+    return limit(round(vector << exp[:, None], k.STEP_F - k.INTENSITY_F)), exp
 
 
 def lines(s: Scanned) -> dict[str, Int]:
@@ -302,6 +421,25 @@ def lines(s: Scanned) -> dict[str, Int]:
 
 spans = lines
 """Vertices to spans (``shade_spans``): the same, of what :func:`scan` found."""
+
+
+def frame(view: View, background: ArrayLike, column: Int, line: Int, pixels: Int) -> Int:
+    """A picture (lines, columns, ...): the background, and what was drawn upon it, the last one at each place
+    (``shade_frame``).
+    """
+    (background,) = integers(background)
+    picture = np.broadcast_to(background, (view.lines, view.columns, *background.shape)).copy()
+    place = line * view.columns + column
+    _, back = np.unique(place[::-1], return_index=True)
+    last = len(place) - 1 - back
+    picture[line[last], column[last]] = pixels[last]
+    return picture
+
+
+def skipped(s: Scanned) -> dict[str, int]:
+    """What was left out (``shade_skipped``)."""
+    limit, told = (1 << 16) - 1, s.faults | {"culled": s.culled, "empty": s.empty, "steep": s.steep}
+    return {name: min(count, limit) for name, count in told.items()}
 
 
 def beats(v: Vertices) -> dict[str, NDArray]:

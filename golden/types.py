@@ -258,7 +258,11 @@ RUN = Struct(
         _unused(16 - k.PLACE_W),
         Field("line", k.PLACE_W, "its raster line"),
         _unused(16 - k.PLACE_W),
-        Field("count", k.COUNT_W, "pixels, at least 1; in a triangle's last run also 0"),
+        Field(
+            "count",
+            k.COUNT_W,
+            "pixels, at least 1; also 0 in a triangle's last run, and in its first, whose place counts",
+        ),
         _unused(32 - k.COUNT_W),
     ),
 )
@@ -284,8 +288,8 @@ CORNER = Struct(
     "corner_t",
     "what a triangle has of its vertex 0",
     (
-        Field("x", k.COORDINATE_W, "", "S15.8"),
-        Field("y", k.COORDINATE_W, "", "S15.8"),
+        Field("x", k.COORDINATE_W + 1, "plus 127", "S16.8"),
+        Field("y", k.COORDINATE_W + 1, "plus 127", "S16.8"),
         _part("normal", SHORT),
         Field("depth", k.DEPTH_F, "", "U0.24"),
         Field("tag", k.TAG_W, ""),
@@ -301,6 +305,20 @@ SIZED = Struct(
         Field("right", k.COUNT_W, "the one behind its last"),
         Field("bottom", k.COUNT_W, "the line behind its last"),
         Field("wide", 1, "its differences of x and y are wider than 17 bits"),
+    ),
+)
+SIDE = Struct(
+    "side_t",
+    "an edge of a triangle, see shade_edges",
+    (
+        Field("dx", k.COORDINATE_W + 1, "", "S16.8"),
+        Field("dy", k.COORDINATE_W, "", "U16.8"),
+        Field("column", k.LINE_W, "", "S17"),
+        Field("line", k.LINE_W, "", "S17"),
+        Field("lines", k.LINE_W, ""),
+        Field("u", k.SUBPIXEL_F, ""),
+        Field("t", k.SUBPIXEL_F, ""),
+        Field("right", 1, ""),
     ),
 )
 EDGE = Struct(
@@ -324,13 +342,22 @@ WALKED = Struct(
         Field("line", k.PLACE_W, ""),
         Field("count", k.COUNT_W, ""),
         Field("last", 1, "of its triangle"),
-        Field("none", 1, "the triangle has no run; this stands for it"),
+        Field("none", 1, "no run: it stands for the end of a triangle"),
     ),
+)
+SITE = Struct(
+    "site_t",
+    "a pixel of the frame",
+    (Field("column", k.PLACE_W, ""), Field("line", k.PLACE_W, "")),
 )
 PAIR = Struct(
     "pair_t",
     "increments of a component: S2.29 of a normal, S1.30 of a depth",
-    (Field("column", k.STEP_W, "", "S2.29"), Field("line", k.STEP_W, "", "S2.29")),
+    (
+        Field("column", k.STEP_W, "", "S2.29"),
+        Field("line", k.STEP_W, "", "S2.29"),
+        Field("steep", 1, "one of them does not fit; both are 0"),
+    ),
 )
 PLANE = Struct(
     "plane_t",
@@ -354,6 +381,7 @@ SURFACE = Struct(
         _part("value", PLANE, "at the first pixel of the first run"),
         _part("dcolumn", PLANE),
         _part("dline", PLANE),
+        _part("site", SITE, "that pixel"),
         Field("columns", k.COUNT_W, "of a box that holds all pixels"),
         Field("lines", k.COUNT_W, ""),
         Field("left", k.PLACE_W, "columns of the box on the left of the first pixel"),
@@ -362,6 +390,71 @@ SURFACE = Struct(
         Field("narrow", 1, "the increments of the normal fit a packet TRIANGLE"),
     ),
 )
+BEGUN = Struct(
+    "begun_t",
+    "a run, and what its triangle's normal and depth are where it begins",
+    (
+        _part("surface", SURFACE),
+        _part("value", PLANE, "at the first pixel of the run"),
+        _part("run", WALKED),
+        Field("first", 1, "of its triangle"),
+    ),
+)
+DEEP = Struct(
+    "deep_t",
+    "the depth of a pixel",
+    (_part("site", SITE), Field("depth", k.DEPTH_F, "", "U0.24")),
+)
+TESTED = Struct(
+    "tested_t",
+    "a pixel whose depth is compared",
+    (
+        _part("deep", DEEP),
+        Field("ends", 1, "the last pixel of its run"),
+        Field("last", 1, "of its triangle"),
+    ),
+)
+VIEW = Struct(
+    "view_t",
+    "the frame, and what of a triangle is drawn in it; to be changed between frames only",
+    (
+        Field("columns", k.COUNT_W, "1 to 4096"),
+        Field("lines", k.COUNT_W, "1 to 4096"),
+        Field("cull", k.CULL_W, "CULL_*"),
+        Field("flat", 1, "all of a triangle has the normal of vertex 0"),
+    ),
+)
+FATE = Struct(
+    "fate_t",
+    "what became of a triangle, or of a packet that gives none",
+    (
+        Field("packet", 1, "skipped: other than three vertices"),
+        Field("range", 1, "skipped: a number out of its range"),
+        Field("normal", 1, "skipped: a normal of length 0"),
+        Field("area", 1, "skipped: no area"),
+        Field("culled", 1, "left out: seen from the side that is culled"),
+        Field("outside", 1, "left out: outside of the frame"),
+        Field("between", 1, "left out: between the centres of pixels"),
+        Field("steep", 1, "drawn, but an increment does not fit: its component is constant"),
+    ),
+)
+SKIPPED = Struct(
+    "skipped_t",
+    "how many triangles and packets were skipped since reset, or drawn flat, each saturating",
+    tuple(
+        Field(name, 16, meaning)
+        for name, meaning in (
+            ("packet", "packets of other than three vertices"),
+            ("range", "a number out of its range"),
+            ("normal", "a normal of length 0"),
+            ("area", "no area"),
+            ("culled", "seen from the side that is culled"),
+            ("empty", "without a pixel in the frame"),
+            ("steep", "drawn with a constant component, as its increment does not fit"),
+        )
+    ),
+)
+RGB8 = _vector("rgb8_t", "a pixel of a picture", 8, "U0.8", ("red", "green", "blue"))
 LOBE = Struct(
     "lobe_t",
     "the head of a packet that fills the table of the lobe; entries follow, a beat each, from the first one on",

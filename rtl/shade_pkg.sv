@@ -274,7 +274,7 @@ package shade_pkg;
   localparam int LATENCY_FIFO_BLOCK = 3;  // one more
   localparam int LATENCY_CROSS = 4;  // products, difference, sum
   localparam int LATENCY_EXPONENT = 4;  // four shifter levels
-  localparam int LATENCY_RECIPROCAL = 14;  // three times m, two bits of the quotient a clock
+  localparam int LATENCY_RECIPROCAL = 15;  // three times m, two bits of the quotient a clock, rounding
   localparam int LATENCY_GRADIENT = 8;  // three shifter levels, product, rounding, range, pair
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
@@ -448,14 +448,23 @@ package shade_pkg;
   localparam int OUTWARD_BITS = 96;
   localparam int VERTEX_BITS = 256;
   localparam int SHORT_BITS = 51;
-  localparam int CORNER_BITS = 140;
-  localparam int SIZED_BITS = 180;
+  localparam int CORNER_BITS = 142;
+  localparam int SIZED_BITS = 182;
+  localparam int SIDE_BITS = 117;
   localparam int EDGE_BITS = 127;
   localparam int WALKED_BITS = 39;
-  localparam int PAIR_BITS = 64;
+  localparam int SITE_BITS = 24;
+  localparam int PAIR_BITS = 65;
   localparam int PLANE_BITS = 128;
   localparam int SPOT_BITS = 88;
-  localparam int SURFACE_BITS = 440;
+  localparam int SURFACE_BITS = 464;
+  localparam int BEGUN_BITS = 632;
+  localparam int DEEP_BITS = 48;
+  localparam int TESTED_BITS = 50;
+  localparam int VIEW_BITS = 29;
+  localparam int FATE_BITS = 8;
+  localparam int SKIPPED_BITS = 112;
+  localparam int RGB8_BITS = 24;
   localparam int LOBE_BITS = 64;
   localparam int CHORD_BITS = 32;
   localparam int SCALARS_BITS = 93;
@@ -580,7 +589,7 @@ package shade_pkg;
   // a run: pixels of the triangle on one raster line; runs come line by line, downwards, at least one a triangle
   typedef struct packed {
     logic [18:0] unused_45;  // ignored
-    logic [12:0] count;  // pixels, at least 1; in a triangle's last run also 0
+    logic [12:0] count;  // pixels, at least 1; also 0 in a triangle's last run, and in its first, whose place counts
     logic [3:0] unused_28;  // ignored
     logic [11:0] line;  // its raster line
     logic [3:0] unused_12;  // ignored
@@ -618,8 +627,8 @@ package shade_pkg;
     logic [15:0] tag;
     logic [23:0] depth;  // U0.24
     short_t normal;  // a normal
-    logic signed [23:0] y;  // S15.8
-    logic signed [23:0] x;  // S15.8
+    logic signed [24:0] y;  // S16.8: plus 127
+    logic signed [24:0] x;  // S16.8: plus 127
   } corner_t;
 
   // a triangle without its increments
@@ -630,6 +639,18 @@ package shade_pkg;
     logic [12:0] left;  // first column of the box
     corner_t corner;  // what a triangle has of its vertex 0
   } sized_t;
+
+  // an edge of a triangle, see shade_edges
+  typedef struct packed {
+    logic right;
+    logic [7:0] t;
+    logic [7:0] u;
+    logic [16:0] lines;
+    logic signed [16:0] line;  // S17
+    logic signed [16:0] column;  // S17
+    logic [23:0] dy;  // U16.8
+    logic signed [24:0] dx;  // S16.8
+  } side_t;
 
   // an edge, from its first line on, see shade_edges
   typedef struct packed {
@@ -644,15 +665,22 @@ package shade_pkg;
 
   // a run as shade_raster gives it
   typedef struct packed {
-    logic none;  // the triangle has no run; this stands for it
+    logic none;  // no run: it stands for the end of a triangle
     logic last;  // of its triangle
     logic [12:0] count;
     logic [11:0] line;
     logic [11:0] column;
   } walked_t;
 
+  // a pixel of the frame
+  typedef struct packed {
+    logic [11:0] line;
+    logic [11:0] column;
+  } site_t;
+
   // increments of a component: S2.29 of a normal, S1.30 of a depth
   typedef struct packed {
+    logic steep;  // one of them does not fit; both are 0
     logic signed [31:0] line;  // S2.29
     logic signed [31:0] column;  // S2.29
   } pair_t;
@@ -679,10 +707,70 @@ package shade_pkg;
     logic [11:0] left;  // columns of the box on the left of the first pixel
     logic [12:0] lines;
     logic [12:0] columns;  // of a box that holds all pixels
+    site_t site;  // that pixel
     plane_t dline;  // normal and depth, or what they grow by, modulo 4
     plane_t dcolumn;  // normal and depth, or what they grow by, modulo 4
     plane_t value;  // at the first pixel of the first run
   } surface_t;
+
+  // a run, and what its triangle's normal and depth are where it begins
+  typedef struct packed {
+    logic first;  // of its triangle
+    walked_t run;  // a run as shade_raster gives it
+    plane_t value;  // at the first pixel of the run
+    surface_t surface;  // a triangle whose runs follow on a stream of their own
+  } begun_t;
+
+  // the depth of a pixel
+  typedef struct packed {
+    logic [23:0] depth;  // U0.24
+    site_t site;  // a pixel of the frame
+  } deep_t;
+
+  // a pixel whose depth is compared
+  typedef struct packed {
+    logic last;  // of its triangle
+    logic ends;  // the last pixel of its run
+    deep_t deep;  // the depth of a pixel
+  } tested_t;
+
+  // the frame, and what of a triangle is drawn in it; to be changed between frames only
+  typedef struct packed {
+    logic flat;  // all of a triangle has the normal of vertex 0
+    logic [1:0] cull;  // CULL_*
+    logic [12:0] lines;  // 1 to 4096
+    logic [12:0] columns;  // 1 to 4096
+  } view_t;
+
+  // what became of a triangle, or of a packet that gives none
+  typedef struct packed {
+    logic steep;  // drawn, but an increment does not fit: its component is constant
+    logic between;  // left out: between the centres of pixels
+    logic outside;  // left out: outside of the frame
+    logic culled;  // left out: seen from the side that is culled
+    logic area;  // skipped: no area
+    logic normal;  // skipped: a normal of length 0
+    logic range;  // skipped: a number out of its range
+    logic packet;  // skipped: other than three vertices
+  } fate_t;
+
+  // how many triangles and packets were skipped since reset, or drawn flat, each saturating
+  typedef struct packed {
+    logic [15:0] steep;  // drawn with a constant component, as its increment does not fit
+    logic [15:0] empty;  // without a pixel in the frame
+    logic [15:0] culled;  // seen from the side that is culled
+    logic [15:0] area;  // no area
+    logic [15:0] normal;  // a normal of length 0
+    logic [15:0] range;  // a number out of its range
+    logic [15:0] packet;  // packets of other than three vertices
+  } skipped_t;
+
+  // a pixel of a picture
+  typedef struct packed {
+    logic [7:0] blue;  // U0.8
+    logic [7:0] green;  // U0.8
+    logic [7:0] red;  // U0.8
+  } rgb8_t;
 
   // the head of a packet that fills the table of the lobe; entries follow, a beat each, from the first one on
   typedef struct packed {

@@ -93,7 +93,7 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 @click.option("--two-sided", is_flag=True, help="Show the backs of faces too, lit from their side.")
 @click.option("--up", default="y", help="The file's axis that points up: y or z.")
 @click.option("--size", default=VIEW.size, help="Width and height in pixels, 16 to 4096.")
-@click.option("--scan", default="host", help="host: spans by NumPy; rtl: set-up and scan conversion in the RTL.")
+@click.option("--scan", help="rtl, the default where it can: set-up and scan conversion in the RTL; host: by NumPy.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
 @click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
 @click.option(

@@ -23,10 +23,12 @@ from polyshade.golden import contract
 from polyshade.golden.material import DIRECT_MODELS, FORMS, Material, planner_registers, registers
 from polyshade.golden.plan import criterion
 from polyshade.golden.reference.light import dot
+from polyshade.golden.scene import level
 from polyshade.sim import core, direct, patch, tools
 from polyshade.sim.core import quantize
 from polyshade.sim.errors import UserError
-from polyshade.sim.scan import scan
+from polyshade.sim.picture import painted
+from polyshade.sim.scan import fits, scan, triangles
 from polyshade.sim.scene.camera import Camera
 from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
 from polyshade.sim.scene.raster import Spans, expand, faces_viewer, portions, resolve, scan_convert
@@ -51,7 +53,7 @@ PATCH_MODELS = ("lambert", "blinn")
 SURFACE_MODELS = {"patch": PATCH_MODELS, "direct": DIRECT_MODELS}  # what a path over triangles can draw
 RANGES = {"threshold": (0.0, 1.0), "degree": (1, 3), "criterion": (0.0, 1.0)}
 ONE = 1 << contract.INTENSITY_F
-SCANS = ("host", "rtl")
+SCANS = ("host", "rtl", None)
 CHOICES = {"scan": SCANS, "path": PATHS, "evaluator": EVALUATORS, "lanes": LANES, "light_unit": LIGHT_UNITS}
 CHOICES |= {"variant": VARIANTS}
 DIFFERENCE_GAIN = 256  # an error of 1/256, one step of an 8-bit picture, is white
@@ -76,7 +78,7 @@ class Settings:
     threshold: float = 0.9
     degree: int = 3  # of every span in form paper
     criterion: float = 0.005  # P2's eta, up to which Lambert's light alone draws a triangle without normalizing
-    scan: str = "host"  # who converts triangles to spans: sim.scene.raster, or shade_spans
+    scan: str | None = None  # who converts triangles: sim.scene.raster or the RTL; None: the RTL where it can
     crease: float | None = None  # these four: see Reading
     flip: bool = False
     two_sided: bool = False
@@ -87,16 +89,16 @@ class Settings:
         for name, allowed in CHOICES.items():
             if getattr(self, name) not in allowed:
                 option = name.replace("_", "-")
-                raise UserError(f"--{option}: {getattr(self, name)!r} is none of {', '.join(map(str, allowed))}")
+                raise UserError(
+                    f"--{option}: {getattr(self, name)!r} is none of {', '.join(str(v) for v in allowed if v)}"
+                )
         for name, (low, high) in RANGES.items():
             if not low <= getattr(self, name) <= high:  # also refuses NaN
                 raise UserError(f"--{name}: {getattr(self, name)} is out of range, allowed is {low} to {high}")
         if not 1e-6 < np.abs(self.light).max() < 1e6:  # also refuses NaN
             raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
-        if self.scan == "rtl" and self.path == "normals" and self.variant in ("V1", "V2"):
+        if self.scan == "rtl" and self.needs_cosines:
             raise UserError(f"--scan: rtl gives no cosines, which variant {self.variant} needs, allowed is host")
-        if self.scan == "rtl" and self.path in SURFACE_MODELS:
-            raise UserError("--scan: rtl is allowed with --path poly, normals")
         models = SURFACE_MODELS.get(self.path, (self.material.model,))
         if self.material.model not in models:
             raise UserError(f"--path: {self.path} is allowed with --model {', '.join(models)}")
@@ -112,6 +114,11 @@ class Settings:
             )
         if self.light_unit == "folded" and (self.path != "poly" or self.material.model not in FOLDED_MODELS):
             raise UserError(f"--light-unit: folded is allowed with --path poly and --model {', '.join(FOLDED_MODELS)}")
+
+    @property
+    def needs_cosines(self) -> bool:
+        """Of the angle between the ends of a span, which the RTL's scan conversion does not give."""
+        return self.path == "normals" and self.variant in ("V1", "V2")
 
     @property
     def reading(self) -> Reading:
@@ -156,39 +163,48 @@ class Frame:
     exact: NDArray[np.float64]  # the same in float64
     report: dict
 
+    def image(self) -> Image.Image:
+        """What the RTL draws, with colours as ``shade_colour`` makes them and levels as ``shade_scene_level`` does."""
+
+        def levels(some: slice) -> NDArray[np.uint8]:
+            light = np.rint(self.intensity[some] * ONE).astype(np.int64)
+            return level(painted(light, self.settings.material)).astype(np.uint8)
+
+        return self._image(levels, BACKGROUND)
+
     def picture(self, intensity: NDArray[np.float64]) -> Image.Image:
         """The intensities as a picture: ambient, diffuse and specular light in the material's colours."""
         surface = self.settings.material
 
-        def colour(some: slice) -> NDArray[np.float64]:
+        def levels(some: slice) -> NDArray[np.uint8]:
             diffuse, specular = np.moveaxis(intensity[some], -1, 0)[..., None]
             matt = (surface.ambient + surface.diffuse * diffuse) * surface.colour
-            return matt + surface.specular * specular * surface.highlight
+            return _levels(matt + surface.specular * specular * surface.highlight)
 
-        return self._image(colour, BACKGROUND)
+        return self._image(levels, BACKGROUND)
 
     def difference(self) -> Image.Image:
         """|RTL - float64| times DIFFERENCE_GAIN: diffuse in green, specular in red."""
 
-        def colour(some: slice) -> NDArray[np.float64]:
+        def levels(some: slice) -> NDArray[np.uint8]:
             error = np.abs(self.intensity[some] - self.exact[some])
-            return DIFFERENCE_GAIN * np.insert(error[:, ::-1], 2, 0, axis=-1)
+            return _levels(DIFFERENCE_GAIN * np.insert(error[:, ::-1], 2, 0, axis=-1))
 
-        return self._image(colour, np.zeros(3))
+        return self._image(levels, np.zeros(3))
 
-    def _image(self, colour: Callable[[slice], NDArray[np.float64]], background: NDArray[np.float64]) -> Image.Image:
-        """The visible ones of the pixels' colours, which ``colour`` gives for some of them: (pixels, 3)."""
+    def _image(self, levels: Callable[[slice], NDArray[np.uint8]], background: NDArray[np.float64]) -> Image.Image:
+        """The visible ones of the pixels, whose colours of 8 bits ``levels`` gives for some of them: (pixels, 3)."""
         size = self.settings.camera.size
-        levels = np.empty((len(self.intensity) + 1, 3), np.uint8)
+        every = np.empty((len(self.intensity) + 1, 3), np.uint8)
         for at in range(0, len(self.intensity), BLOCK):
-            levels[at : at + BLOCK][: len(self.intensity) - at] = _levels(colour(slice(at, at + BLOCK)))
-        levels[-1] = _levels(background)
-        return Image.fromarray(levels[self.visible].reshape(size, size, 3))  # -1 is the last
+            every[at : at + BLOCK][: len(self.intensity) - at] = levels(slice(at, at + BLOCK))
+        every[-1] = _levels(background)
+        return Image.fromarray(every[self.visible].reshape(size, size, 3))  # -1 is the last
 
     def save(self, folder: Path) -> None:
         """image.png, reference.png, difference.png and report.json, all or none."""
         pictures = {
-            "image.png": self.picture(self.intensity),
+            "image.png": self.image(),
             "reference.png": self.picture(self.exact),
             "difference.png": self.difference(),
         }
@@ -273,7 +289,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
     first of them; ``report["counter_mismatches"]`` counters and bits of STATUS that differ.
     """
     began = time.perf_counter()
-    with tqdm(total=5 + (settings.scan == "rtl"), desc="load", disable=None, delay=2, leave=False) as bar:
+    with tqdm(total=6, desc="load", disable=None, delay=2, leave=False) as bar:
 
         def stage(name: str) -> None:
             bar.update()
@@ -291,20 +307,21 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         passed = np.zeros(len(mesh.faces), bool)
         shown = np.unique(spans.triangle)
         passed[shown] = flat(screen.normals[mesh.faces[shown]], settings.criterion, FORMS[settings.form])
-        if settings.path == "patch":
-            scan_report = {"coverage_mismatches": 0, "depth_mismatches": 0}
-            drawn = patch.draw(Triangles.of(spans, passed), surface, settings.light, stage, settings.lanes)
-        elif settings.path == "direct":
-            scan_report = {"coverage_mismatches": 0, "depth_mismatches": 0}
-            drawn = direct.draw(Triangles.of(spans, passed), surface, settings.light, stage)
-        else:
-            if settings.scan == "rtl":
-                stage("set up and scan in the RTL")
-                scanned = scan(screen, mesh.faces, camera.size, spans, passed)
-                lines, visible = scanned.lines, scanned.visible
-                scan_report = scanned.report
+        rtl = settings.scan == "rtl" or (not settings.scan and not settings.needs_cosines and fits(screen, mesh.faces))
+        scan_report = {"coverage_mismatches": 0, "depth_mismatches": 0}
+        if rtl:
+            stage("set up and scan in the RTL")
+            module = "shade_surfaces" if settings.path in SURFACE_MODELS else "shade_spans"
+            scanned = scan(screen, mesh.faces, camera.size, spans, passed, module)
+            visible, scan_report = scanned.visible, scanned.report
+        if settings.path in SURFACE_MODELS:
+            sent = triangles(scanned.golden) if rtl else Triangles.of(spans, passed)
+            if settings.path == "patch":
+                drawn = patch.draw(sent, surface, settings.light, stage, settings.lanes)
             else:
-                lines, scan_report = core.Lines.of(spans, passed), {"coverage_mismatches": 0, "depth_mismatches": 0}
+                drawn = direct.draw(sent, surface, settings.light, stage)
+        else:
+            lines = scanned.lines if rtl else core.Lines.of(spans, passed)
             drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
@@ -348,7 +365,7 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         "pixels": pixels,
         "visible_pixels": int((visible >= 0).sum()),
         **more,
-        "scan": settings.scan,
+        "scan": "rtl" if rtl else "host",
         **scan_report,
         "mismatches": drawn.mismatches,
         **{name: value for name, value in found.items() if value},

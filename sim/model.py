@@ -98,6 +98,23 @@ def _words(port: Port) -> int:
     return -(-port.width // 32)
 
 
+def _slots(port: Port) -> int:
+    """Integers that a status port's value takes."""
+    return 1 if port.width <= WORDS_MAX else _words(port)
+
+
+def _status(ports: list[Port]) -> str:
+    """C++ that reads status ports."""
+    lines, at = [], 0
+    for port in ports:
+        if port.width <= WORDS_MAX:
+            lines.append(f"  status[{at}] = t.{port.name};")
+        else:
+            lines += [f"  status[{at + w}] = t.{port.name}[{w}];" for w in range(_words(port))]
+        at += _slots(port)
+    return "".join(lines)
+
+
 def glue(ports: list[Port]) -> str:
     """The C++ that knows the names of the ports; what it must define is listed in harness.cpp."""
     face = interface(ports)
@@ -127,7 +144,7 @@ def glue(ports: list[Port]) -> str:
 #include <vector>
 using DUT = Vdut;
 constexpr bool CLOCKED = {str(face.clock).lower()}, OUT_VALID = {str(face.out.valid is not None).lower()};
-constexpr int OUT_PORTS = {len(face.out.data)}, STATUS_PORTS = {len(face.status)};
+constexpr int OUT_PORTS = {len(face.out.data)}, STATUS_PORTS = {sum(map(_slots, face.status))};
 namespace {{
 {setter("set_clock", "clk_i" if face.clock else None)}{setter("set_reset", "rst_i" if face.reset else None)}\
 void set_phase(DUT& t, uint64_t v) {{ {"t.phase_i = v;" if face.phase else "(void)t; (void)v;"} }}
@@ -138,7 +155,7 @@ inline void drive(DUT& t, const void* const* in, uint64_t row) {{
 inline void collect(DUT& t, std::vector<std::vector<uint64_t>>& out) {{
 {"".join(collect(port, i) for i, port in enumerate(face.out.data))}}}
 inline void read_status(DUT& t, uint64_t* status) {{
-{"".join(f"  status[{i}] = t.{port.name};" for i, port in enumerate(face.status))}}}
+{_status(face.status)}}}
 }}
 """
 
@@ -425,8 +442,8 @@ class Model:
                     value = value << shift >> shift
             outputs[port.name] = value
         given = column(self._library.model_given(session), job.given).view(np.int64)
-        status = column(self._library.model_status(session), len(face.status))
-        named = {port.name: int(value) for port, value in zip(face.status, status, strict=True)}
+        status = iter(column(self._library.model_status(session), sum(map(_slots, face.status))).tolist())
+        named = {port.name: sum(next(status) << 32 * i for i in range(_slots(port))) for port in face.status}
         read = dict(accesses[job.writes :].tolist())
         return Run(outputs, taken.view(np.int64), given, job.clocks, job.simulated, named, read)
 

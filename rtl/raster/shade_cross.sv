@@ -38,6 +38,6 @@ module shade_cross (
   always_ff @(posedge clk_i) begin
     difference_q3 <= 37'(pq_q2) - 37'(st_q2);
     control_q3    <= control_q2;
-    sum_o         <= minus_q3 ? base - SUM_W'(difference_q3) : base + SUM_W'(difference_q3);
+    sum_o         <= base + (SUM_W'(difference_q3) ^ {SUM_W{minus_q3}}) + SUM_W'(minus_q3);
   end
 endmodule

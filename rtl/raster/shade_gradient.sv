@@ -3,7 +3,7 @@
 //
 //   sum_i       S52.0     v1 dy2 - v2 dy1, then with line_i v2 dx1 - v1 dx2, the sign of A taken out
 //   down_i, r_i  1/A = r 2^-17 2^-e; down = e, of a depth e + 7, with sum_i, r_i 3 clocks later
-//   pair_o      column, line: S2.29 of a normal's component, S1.30 of a depth; both 0 if one does not fit
+//   pair_o      column, line: S2.29 of a normal's component, S1.30 of a depth; both 0 and steep if one does not fit
 //
 //   aligned = sum 2^(23-down)  35 bits, 19 more than the result, cut
 //   result  = aligned r / 2^19, to nearest, ties up: error at most 3/4 ulp beside that of r
@@ -82,7 +82,7 @@ module shade_gradient (
   assign none = wide_q || wide_q7;
   always_ff @(posedge clk_i) begin
     if (!line_q7) {wide_q, column_q} <= {wide_q7, g_q7};
-    pair_o <= none ? '0 : {g_q7, column_q};
+    pair_o <= {none, none ? (2 * shade_pkg::STEP_W)'(0) : {g_q7, column_q}};
   end
   shade_valid #(.DEPTH(shade_pkg::LATENCY_GRADIENT)) u_valid (.clk_i, .rst_i, .valid_i(valid_i && line_i), .valid_o);
 endmodule

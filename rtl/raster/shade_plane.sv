@@ -3,8 +3,9 @@
 //
 //   value = vertex 0 + (dcolumn (256 column + 128 - x) + dline (256 line + 128 - y)) / 2^8, to nearest, ties up, modulo 4
 //
-// pair_i: four pairs of increments a triangle, kept in a FIFO of 16; head_i: vertex 0 and the box; run_i: see
-// shade_raster, kept in a FIFO of 16 words, run_credit_o frees one. A triangle without a run is dropped: empty_o.
+// pair_i: four pairs of increments a triangle, kept in a FIFO of 64; head_i: vertex 0 and the box; run_i: see
+// shade_raster, kept in a FIFO of 64 words, run_credit_o frees one. A triangle without a run is dropped.
+// told_o: between, dropped for want of a run; steep, one with a run has an increment that did not fit.
 // surface_valid_o stands until surface_ready_i; the runs of a surface, behind it on run_valid_o, do not wait for it.
 //
 // One 32 x 18 multiplier (two blocks). 15 clocks a triangle, 23 a wide one; a run a clock.
@@ -26,32 +27,32 @@ module shade_plane (
   output logic                run_valid_o,
   input  logic                run_ready_i,
   output shade_pkg::walked_t  run_o,
-  output logic                empty_o
+  output shade_pkg::fate_t    told_o
 );
   localparam int W = shade_pkg::COORDINATE_W;
   localparam int F = shade_pkg::SUBPIXEL_F;
   localparam int S_W = shade_pkg::STEP_W;
   localparam int C_W = shade_pkg::COUNT_W;
-  localparam int WAIT_LOG2 = 4;
+  localparam int WAIT_LOG2 = 6;  // what block RAM holds
   localparam int SUM_W = S_W + F;
 
   // ---- what waits ---------------------------------------------------------------------------------------------------
   logic pair_some, pair_taken, run_some, run_take, unused_pair;
   shade_pkg::pair_t pair;
   shade_pkg::walked_t run;
-  shade_fifo #(.WIDTH($bits(pair)), .LOG2(WAIT_LOG2)) u_pairs (
+  shade_fifo #(.WIDTH($bits(pair)), .LOG2(WAIT_LOG2), .BLOCK(1)) u_pairs (
     .clk_i, .rst_i, .valid_i(pair_valid_i), .data_i(pair_i), .valid_o(pair_some), .ready_i(pair_taken), .data_o(pair),
     .taken_o(unused_pair)
   );
-  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2)) u_runs (
+  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2), .BLOCK(1)) u_runs (
     .clk_i, .rst_i, .valid_i(run_valid_i), .data_i(run_i), .valid_o(run_some), .ready_i(run_take), .data_o(run),
     .taken_o(run_credit_o)
   );
 
   // ---- control: of each triangle the runs move on, and four components are made, both at once ---------------------------
-  logic moving_q, busy_q, drop_q, start, move, step, whole, last_component;
+  logic moving_q, busy_q, drop_q, steep_q, start, move, step, whole, last_component;
   logic [1:0] component_q, part_q, parts;  // part: {upper half, line}
-  logic [4:0] result_q;
+  logic [3:0] result_q;
   logic credit_q0;
   logic [WAIT_LOG2:0] credit_q;
   logic after_taken;
@@ -68,8 +69,11 @@ module shade_plane (
   always_ff @(posedge clk_i) begin
     moving_q <= !rst_i && ((start && !run.none) || (moving_q && !(move && run.last)));
     busy_q   <= !rst_i && (start || (busy_q && !(pair_taken && last_component)));
-    empty_o  <= start && run.none && !rst_i;
+    told_o         <= '0;
+    told_o.between <= start && run.none && !rst_i;
     if (start) drop_q <= run.none;
+    steep_q <= !start && (steep_q || (pair_taken && pair.steep));
+    told_o.steep   <= pair_taken && last_component && !drop_q && (steep_q || pair.steep) && !rst_i;
     if (start) component_q <= 2'd0;
     else if (pair_taken) component_q <= component_q + 2'd1;
     if (start) part_q <= {head_i.wide, 1'b0};
@@ -78,7 +82,7 @@ module shade_plane (
   end
 
   // the runs' second FIFO, so that the next triangle can be looked at
-  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2)) u_after (
+  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2), .BLOCK(1)) u_after (
     .clk_i, .rst_i, .valid_i(move), .data_i(run), .valid_o(run_valid_o), .ready_i(run_ready_i), .data_o(run_o),
     .taken_o(after_taken)
   );
@@ -94,7 +98,7 @@ module shade_plane (
   logic [W:0] way;
   logic [17:0] way_part;
   logic [S_W+17:0] product_q3;
-  logic [SUM_W-1:0] sum_q4, base, half_up_q5;
+  logic [SUM_W-1:0] sum_q4, base, total;
   logic first_q3, shift_q3, first_q2, shift_q2, first_q1, shift_q1, result;
   assign way      = part_q[0] ? way_q[1] : way_q[0];
   assign way_part = part_q[1] ? {{(35 - W) {way[W]}}, way[W-1:17]} : {way[17] && !surface_large_q, way[16:0]};
@@ -105,15 +109,14 @@ module shade_plane (
   assign result  = pair_taken && !drop_q;
   always_ff @(posedge clk_i) begin
     if (start) begin
-      way_q[0] <= (W + 1)'({run.column, 1'b1, {(F - 1) {1'b0}}}) - {head_i.corner.x[W-1], head_i.corner.x};
-      way_q[1] <= (W + 1)'({run.line, 1'b1, {(F - 1) {1'b0}}}) - {head_i.corner.y[W-1], head_i.corner.y};
+      way_q[0] <= (W + 1)'({run.column, {F{1'b1}}}) - head_i.corner.x;  // the centre plus 127, as x
+      way_q[1] <= (W + 1)'({run.line, {F{1'b1}}}) - head_i.corner.y;
     end
     {first_q1, shift_q1} <= {part_q == parts, part_q == 2'b00};
     {first_q2, shift_q2} <= {first_q1, shift_q1};
     {first_q3, shift_q3} <= {first_q2, shift_q2};
-    half_up_q5           <= sum_q4 + SUM_W'(1 << (F - 1));
     sum_q4               <= base + product_q3[SUM_W-1:0];
-    result_q             <= rst_i ? '0 : {result_q[3:0], result};
+    result_q             <= rst_i ? '0 : {result_q[2:0], result};
   end
 
   // ---- vertex 0 and the way, component by component ---------------------------------------------------------------------------
@@ -121,10 +124,14 @@ module shade_plane (
   logic [1:0] made_q;
   logic [C_W-1:0] columns_q, lines_q;
   logic [shade_pkg::PLACE_W-1:0] left_q;
+  shade_pkg::site_t site_q;
   logic [shade_pkg::TAG_W:0] tag_q;
   logic narrow_q;
   logic unused_low;
-  assign unused_low = ^{half_up_q5[F-1:0], product_q3[S_W+17:SUM_W]};
+  assign unused_low = ^{total[F-1:0], product_q3[S_W+17:SUM_W]};
+  logic [S_W-1:0] vertex;
+  assign vertex = made_q[1] ? (made_q[0] ? vertex_q[3] : vertex_q[2]) : (made_q[0] ? vertex_q[1] : vertex_q[0]);
+  assign total  = sum_q4 + {vertex, 1'b1, {(F - 1) {1'b0}}};
   localparam int N_UP = shade_pkg::STEP_F - shade_pkg::VERTEX_F;
   localparam int Z_UP = shade_pkg::PLANE_F - shade_pkg::DEPTH_F;
   always_ff @(posedge clk_i) begin
@@ -134,15 +141,14 @@ module shade_plane (
                     S_W'($signed({head_i.corner.normal.x, {N_UP{1'b0}}}))};
       columns_q <= head_i.right - head_i.left;
       lines_q   <= head_i.bottom - C_W'(run.line);
+      site_q    <= {run.line, run.column};
       left_q    <= run.column - head_i.left[shade_pkg::PLACE_W-1:0];
       tag_q     <= {head_i.corner.flat, head_i.corner.tag};
-    end else if (result_q[4]) begin
-      vertex_q  <= {vertex_q[0], vertex_q[3:1]};
     end
-    if (result_q[4]) value_q <= {vertex_q[0] + half_up_q5[SUM_W-1:F], value_q[3:1]};
+    if (result_q[3]) value_q <= {total[SUM_W-1:F], value_q[3:1]};
     if (pair_taken) {dline_q, dcolumn_q} <= {pair.line, dline_q[3:1], pair.column, dcolumn_q[3:1]};
-    made_q          <= start ? 2'd0 : made_q + 2'(result_q[4]);
-    surface_valid_o <= !rst_i && ((result_q[4] && made_q == 2'd3) || (surface_valid_o && !surface_ready_i));
+    made_q          <= start ? 2'd0 : made_q + 2'(result_q[3]);
+    surface_valid_o <= !rst_i && ((result_q[3] && made_q == 2'd3) || (surface_valid_o && !surface_ready_i));
   end
 
   // ---- do the increments of the normal, times the largest power of two below the box's size, stay in [-2, 2)? ---------------------
@@ -163,5 +169,5 @@ module shade_plane (
     if (start) narrow_q <= 1'b1;
     else if (look_q && (over(dcolumn_q[3], column_mask_q) || over(dline_q[3], line_mask_q))) narrow_q <= 1'b0;
   end
-  assign surface_o = {narrow_q, tag_q, left_q, lines_q, columns_q, dline_q, dcolumn_q, value_q};
+  assign surface_o = {narrow_q, tag_q, left_q, lines_q, columns_q, site_q, dline_q, dcolumn_q, value_q};
 endmodule

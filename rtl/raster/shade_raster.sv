@@ -2,10 +2,11 @@
 // shade_raster: the runs of a triangle, line by line downwards, by walking along its edges.
 //
 // edge_i: three edges of a triangle as shade_edges gives them, the two from the top vertex first, with the remainder r of
-// the first line. On every line an edge has the column c and the remainder 0 <= r < dy, r = -256 (x - centre) dy in all:
+// the first line. On every line an edge has the column c and a remainder e >= 0, less than dy: of an edge to the right
+// e = r = -256 (x - centre) dy in all, of one to the left its mirror image e = -1 - r, so that both move alike:
 //
-//   next line    r = r - dx
-//   settle       r < 0: r = r + dy, c = c + 1;   r >= dy: r = r - dy, c = c - 1;   a column a clock, both edges at once
+//   next line    e = e - |dx|
+//   settle       e < 0: e = e + dy, c = c + 1, to the left c - 1;   a column a clock, both edges at once
 //
 // A run goes from the left edge's c to the one before the right edge's, inside of columns_i and lines_i; so two triangles
 // with a common edge have each of its pixels once. run_o: {none, last, count, line, column}; last with the last run of a
@@ -33,20 +34,19 @@ module shade_raster #(
 
   localparam int W = shade_pkg::COORDINATE_W;
   localparam int L_W = shade_pkg::LINE_W;
-  localparam int R_W = shade_pkg::REST_W + 1;
+  localparam int E_W = shade_pkg::REST_W;
   localparam int P_W = shade_pkg::PLACE_W;
   localparam int C_W = shade_pkg::COUNT_W;
 
   // ---- control: two edges, then lines; when one edge ends, the third one takes its place -----------------------------------
   typedef enum logic [1:0] {FIRST, SECOND, WALK, THIRD} state_e;
   state_e state_q;
-  logic third_q, some_credit_q, walk, settled, emit, finish, below, below_q;
+  logic third_q, some_credit_q, walk, emit, finish, below, below_q;
   logic [1:0] over, calm, load;  // left, right
   logic [L_W-1:0] y_q;
   assign walk         = state_q == WALK;
   assign below        = $signed(y_q) >= $signed(L_W'(lines_i));
-  assign settled      = walk && over == 2'b00 && calm == 2'b11 && !below_q;
-  assign emit         = settled && some_credit_q;
+  assign emit         = walk && over == 2'b00 && calm == 2'b11 && !below_q && some_credit_q;
   assign finish       = walk && third_q && (over == 2'b11 || below_q) && some_credit_q;
   assign edge_ready_o = state_q != WALK;
   assign load         = !edge_valid_i || state_q == WALK ? 2'b00 : state_q == THIRD ? over : {edge_i.right, !edge_i.right};
@@ -72,66 +72,62 @@ module shade_raster #(
   end
 
   // ---- two edges ------------------------------------------------------------------------------------------------------------
+  logic mirror;
   logic [1:0][L_W-1:0] c;
+  assign mirror = edge_i.dx[W];
   for (genvar i = 0; i < 2; i++) begin : g_side
-    logic signed [R_W-1:0] r_q, moved;
+    logic signed [E_W-1:0] e_q, sum;
     logic signed [W:0] dx_q;
     logic [W-1:0] dy_q;
-    logic [L_W-1:0] c_q, left_q;
-    logic over_q;
-    assign moved   = r_q[R_W-1] ? r_q + R_W'(dy_q) : r_q - R_W'(dy_q);
-    assign calm[i] = !r_q[R_W-1] && moved[R_W-1];
-    assign over[i] = over_q;
+    logic [L_W-1:0] c_q, c_base, c_step, left_q;  // left: lines behind this one, -1: none, nor this one
+    assign sum     = e_q + (emit ? {1'b1, dx_q ^ {(W + 1) {!dx_q[W]}}} : E_W'(dy_q)) + E_W'(emit && !dx_q[W]);
+    assign c_base  = load[i] ? edge_i.column : c_q;
+    assign c_step  = load[i] ? {L_W{!mirror}} : dx_q[W] ? '1 : L_W'(1);
+    assign calm[i] = !e_q[E_W-1];
+    assign over[i] = left_q[L_W-1];
     assign c[i]    = c_q;
     always_ff @(posedge clk_i) begin
       if (load[i]) begin
-        r_q    <= R_W'(edge_i.rest);
-        dx_q   <= edge_i.dx;
-        dy_q   <= edge_i.dy;
-        c_q    <= edge_i.column;
-        left_q <= edge_i.lines;
-        over_q <= edge_i.lines == '0;
-      end else if (emit) begin
-        r_q    <= r_q - R_W'(dx_q);
-        left_q <= left_q - L_W'(1);
-        over_q <= left_q == L_W'(1);
-      end else if (walk && !calm[i] && !over[i]) begin
-        r_q <= moved;
-        c_q <= r_q[R_W-1] ? c_q + L_W'(1) : c_q - L_W'(1);
+        dx_q <= edge_i.dx;
+        dy_q <= edge_i.dy;
       end
+      if (load[i]) e_q <= edge_i.rest ^ {E_W{mirror}};
+      else if (emit || (walk && !calm[i])) e_q <= sum;
+      if (load[i] || (walk && !calm[i])) c_q <= c_base + c_step;
+      if (load[i] || emit) left_q <= (load[i] ? edge_i.lines : left_q) - L_W'(1);
     end
   end
 
   // ---- the run inside of the frame -------------------------------------------------------------------------------------------
-  logic emit_q1, end_q1, some_q2, end_q2, inside_q1;
+  logic emit_q1, end_q1, emit_q2, end_q2, inside_q1, inside_q2, some_q2;
   logic [1:0][L_W-1:0] c_q1;
   logic [P_W-1:0] y_q1, y_q2, from_q2;
-  logic [C_W-1:0] from, to, count_q2;
-  assign from = c_q1[0][L_W-1] ? '0 : c_q1[0][C_W-1:0];
-  assign to   = $signed(c_q1[1]) < $signed(L_W'(columns_i)) ? c_q1[1][C_W-1:0] : columns_i;
-  logic some;
-  assign some = emit_q1 && inside_q1 && $signed(c_q1[0]) < $signed(c_q1[1]) && !c_q1[1][L_W-1] && c_q1[1] != '0
-                && $signed(c_q1[0]) < $signed(L_W'(columns_i));
+  logic [L_W-1:0] from, to;
+  logic [L_W:0] count_q2;  // with a sign
+  assign from    = c_q1[0][L_W-1] ? '0 : c_q1[0];
+  assign to      = $signed(c_q1[1]) < $signed(L_W'(columns_i)) ? c_q1[1] : L_W'(columns_i);
+  assign some_q2 = emit_q2 && inside_q2 && !count_q2[L_W] && count_q2 != '0;
   always_ff @(posedge clk_i) begin
     c_q1      <= c;
     y_q1      <= y_q[P_W-1:0];
     inside_q1 <= !y_q[L_W-1] && !below;
+    inside_q2 <= inside_q1;
     below_q   <= below;  // a clock late: one line more is walked, outside of the frame
     emit_q1   <= emit && !rst_i;
     end_q1    <= finish && !rst_i;
-    some_q2   <= some && !rst_i;
+    emit_q2   <= emit_q1 && !rst_i;
     end_q2    <= end_q1 && !rst_i;
     y_q2      <= y_q1;
     from_q2   <= from[P_W-1:0];
-    count_q2  <= to - from;
+    count_q2  <= {to[L_W-1], to} - {1'b0, from};
   end
 
   // ---- a run waits for the next one, or for the end ---------------------------------------------------------------------------
   logic held_q, slot_q2;
+  assign slot_q2 = emit_q2 || end_q2;
   logic [P_W+P_W+C_W-1:0] held;
   always_ff @(posedge clk_i) begin
-    slot_q2 <= (emit_q1 || end_q1) && !rst_i;
-    if (some_q2) held <= {count_q2, y_q2, from_q2};
+    if (some_q2) held <= {count_q2[C_W-1:0], y_q2, from_q2};
     held_q  <= !rst_i && !end_q2 && (some_q2 || held_q);
     valid_o <= !rst_i && ((some_q2 && held_q) || end_q2);
     run_o   <= {end_q2 && !held_q, end_q2, held};

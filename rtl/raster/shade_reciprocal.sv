@@ -3,7 +3,7 @@
 //
 //   a_i  U51.0         with start_i, at most every 10 clocks
 //   e_o  U6            place of the highest bit of a, LATENCY_EXPONENT = 4 clocks after start_i; holds
-//   r_o  U0.17         LATENCY_RECIPROCAL = 14 clocks after start_i; holds until the next one
+//   r_o  U0.17         LATENCY_RECIPROCAL = 15 clocks after start_i; holds until the next one
 //
 //   m = a 2^-e         U1.19, cut            r = 1/m to nearest, ties up, at most 1 - 2^-17
 //
@@ -56,19 +56,18 @@ module shade_reciprocal (
 
   // ---- 1/m: remainders of 2^(M_W-1) / m, two bits of the quotient a clock, one more than r has ---------------------------
   logic [M_W-1:0] rest_q;
-  logic [M_W+1:0] triple_q, less_1, less_2, less_3, four;
-  logic [R_F-2:0] quotient_q;
-  logic [R_F:0] quotient, rounded;
+  logic [M_W+1:0] triple_q, four;
+  logic [M_W+2:0] less_1, less_2, less_3;  // with a borrow
+  logic [R_F:0] quotient_q, rounded;
   logic [1:0] digit;
   logic [3:0] left_q;
   logic first_q;
   assign four     = {rest_q, 2'b00};
-  assign less_1   = four - {2'b00, m_q4};
-  assign less_2   = four - {1'b0, m_q4, 1'b0};
-  assign less_3   = four - triple_q;
-  assign digit    = four >= triple_q ? 2'd3 : four >= {1'b0, m_q4, 1'b0} ? 2'd2 : {1'b0, four >= {2'b00, m_q4}};
-  assign quotient = {quotient_q, digit};
-  assign rounded  = {1'b0, quotient[R_F:1]} + (R_F + 1)'(quotient[0]);
+  assign less_1   = {1'b0, four} - {3'b000, m_q4};
+  assign less_2   = {1'b0, four} - {2'b00, m_q4, 1'b0};
+  assign less_3   = {1'b0, four} - {1'b0, triple_q};
+  assign digit    = !less_3[M_W+2] ? 2'd3 : !less_2[M_W+2] ? 2'd2 : {1'b0, !less_1[M_W+2]};
+  assign rounded  = {1'b0, quotient_q[R_F:1]} + (R_F + 1)'(quotient_q[0]);
   always_ff @(posedge clk_i) begin
     triple_q <= {2'b00, m_q4} + {1'b0, m_q4, 1'b0};
     first_q  <= load_q;
@@ -81,8 +80,8 @@ module shade_reciprocal (
         default: rest_q <= less_3[M_W-1:0];
       endcase
     end
-    quotient_q <= quotient[R_F-2:0];
-    left_q     <= first_q ? 4'd8 : left_q - 4'(left_q != 4'd0);
+    quotient_q <= {quotient_q[R_F-2:0], digit};
+    left_q     <= first_q ? 4'd9 : left_q - 4'(left_q != 4'd0);
     if (left_q == 4'd1 && !first_q) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
   end
   logic unused_less;

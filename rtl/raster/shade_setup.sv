@@ -3,7 +3,7 @@
 //
 // A triangle (valid_i, ready_o, see shade_vertices) waits in a first place until the sign of its area is known,
 //
-//   A = dx1 dy2 - dx2 dy1          error_area_o: A = 0; cull_i: CULL_*; empty_o: its box holds no pixel of the frame
+//   A = dx1 dy2 - dx2 dy1          told_o: A = 0, culled by cull_i (CULL_*), or its box holds no pixel of the frame
 //
 // then goes through a second one, from which three edges and eight sums are made, an edge or a sum a clock:
 //
@@ -23,8 +23,8 @@ module shade_setup (
   input  logic [       shade_pkg::COUNT_W-1:0]    lines_i,
   input  logic                                    valid_i,
   output logic                                    ready_o,
-  input  logic [2:0][shade_pkg::COORDINATE_W-1:0] x_i,
-  input  logic [2:0][shade_pkg::COORDINATE_W-1:0] y_i,
+  input  logic [  shade_pkg::COORDINATE_W:0]      x_i,
+  input  logic [  shade_pkg::COORDINATE_W:0]      y_i,
   input  logic [1:0][  shade_pkg::COORDINATE_W:0] dx_i,
   input  logic [1:0][  shade_pkg::COORDINATE_W:0] dy_i,
   input  logic [1:0][       shade_pkg::DEPTH_F:0] ddepth_i,
@@ -38,9 +38,7 @@ module shade_setup (
   output logic                                    head_valid_o,
   input  logic                                    head_ready_i,
   output shade_pkg::sized_t                       head_o,
-  output logic                                    error_area_o,
-  output logic                                    culled_o,
-  output logic                                    empty_o
+  output shade_pkg::fate_t                        told_o
 );
   localparam int W = shade_pkg::COORDINATE_W;
   localparam int L_W = shade_pkg::LINE_W;
@@ -48,11 +46,6 @@ module shade_setup (
   localparam int Z_W = shade_pkg::DEPTH_F + 1;
   localparam int CROSS = 1 + shade_pkg::LATENCY_CROSS;
   localparam int PIXEL_W = shade_pkg::COUNT_W;
-
-  // a number's upper part and its lower 17 bits, or as much of a small one as a multiplier takes
-  function automatic logic [17:0] part(input logic [W:0] x, input logic upper, input logic wide);
-    part = upper ? {{(35 - W) {x[W]}}, x[W-1:17]} : {x[17] && !wide, x[16:0]};
-  endfunction
 
   // ---- first place: waits for the area ----------------------------------------------------------------------------------
   logic load, first_q, asked_q, release_first, large_i, large_q;
@@ -85,13 +78,9 @@ module shade_setup (
     first_q <= !rst_i && (load || (first_q && !release_first));
   end
   logic edge_some, edge_step;
-  logic signed [W:0] edge_dx, edge_dy;
-  logic [L_W-1:0] edge_line, edge_lines, edge_column;
-  logic [shade_pkg::SUBPIXEL_F-1:0] edge_u, edge_t;
-  logic edge_right;
+  shade_pkg::side_t side;
   shade_edges u_edges (
-    .clk_i, .rst_i, .load_i(load), .x_i, .y_i, .some_o(edge_some), .step_i(edge_step), .dx_o(edge_dx), .dy_o(edge_dy),
-    .line_o(edge_line), .lines_o(edge_lines), .column_o(edge_column), .u_o(edge_u), .t_o(edge_t), .right_o(edge_right)
+    .clk_i, .rst_i, .load_i(load), .x_i, .y_i, .some_o(edge_some), .step_i(edge_step), .side_o(side)
   );
 
   // ---- second place: the steps 0 to 2 are edges, 3 to 10 sums, column and line of each component in turn --------------------
@@ -147,51 +136,31 @@ module shade_setup (
     second_q <= !rst_i && (start || (second_q && !(done && final_step)));
   end
 
-  // ---- factors, in a register; then the part that is multiplied ---------------------------------------------------------
-  logic [1:0][W:0] f, g, f_q, g_q;  // of the sum f1 g2 - f2 g1
-  logic [1:0][17:0] f_part, g_part;
-  logic [1:0] comp, now_q;
-  logic f_wide_q, g_wide_q, sum_first_q, shift_q, minus_sum_q;
-  assign comp = step_q[2:1] - 2'd1 - 2'(!step_q[0]);  // 3, 4 -> 0 ... 9, 10 -> 3
-  always_comb begin
-    for (int i = 0; i < 2; i++) begin
-      case (comp)
-        2'd0: f[i] = {{(W + 1 - N_W) {c_dn_q[i][0][N_W-1]}}, c_dn_q[i][0]};
-        2'd1: f[i] = {{(W + 1 - N_W) {c_dn_q[i][1][N_W-1]}}, c_dn_q[i][1]};
-        2'd2: f[i] = {{(W + 1 - N_W) {c_dn_q[i][2][N_W-1]}}, c_dn_q[i][2]};
-        default: f[i] = c_dz_q[i];
-      endcase
-      g[i] = is_line ? c_dx_q[i] : c_dy_q[i];
-      if (is_edge) begin
-        f[i] = i == 0 ? {{(W - 7) {1'b1}}, ~edge_u} : {{(W - 7) {1'b0}}, edge_t};
-        g[i] = i == 0 ? edge_dx : edge_dy;
-      end
-      if (face) {g[i], f[i]} = {dy_q[i], dx_q[i]};
-    end
-  end
-  always_ff @(posedge clk_i) begin
-    {f_q, g_q, now_q}      <= {f, g, now};
-    {f_wide_q, g_wide_q}   <= parts;
-    sum_first_q            <= now == parts;
-    shift_q                <= !now[0] && (parts[0] || !now[1]);
-    minus_sum_q            <= !face && !is_edge && (c_minus_q ^ is_line);
-  end
-  always_comb begin
-    for (int i = 0; i < 2; i++) begin
-      f_part[i] = part(f_q[i], now_q[1], f_wide_q);
-      g_part[i] = part(g_q[i], now_q[0], g_wide_q);
-    end
-  end
+  // ---- sums ----------------------------------------------------------------------------------------------------------------
+  logic [3:0][17:0] factor;
+  logic [1:0] comp;
+  logic sum_first_q, shift_q, minus_sum_q;
   logic signed [shade_pkg::AREA_W:0] sum;
+  assign comp = step_q[2:1] - 2'd1 - 2'(!step_q[0]);  // 3, 4 -> 0 ... 9, 10 -> 3
+  shade_setup_factors u_factors (
+    .clk_i, .face_i(face), .edge_i(is_edge), .line_i(is_line), .comp_i(comp), .now_i(now), .wide_i(parts),
+    .face_dx_i(dx_q), .face_dy_i(dy_q), .dx_i(c_dx_q), .dy_i(c_dy_q), .dz_i(c_dz_q), .dn_i(c_dn_q), .side_i(side),
+    .part_o(factor)
+  );
+  always_ff @(posedge clk_i) begin
+    sum_first_q <= now == parts;
+    shift_q     <= !now[0] && (parts[0] || !now[1]);
+    minus_sum_q <= !face && !is_edge && (c_minus_q ^ is_line);
+  end
   shade_cross u_cross (
-    .clk_i, .first_i(sum_first_q), .shift_i(shift_q), .minus_i(minus_sum_q), .p_i(f_part[0]), .q_i(g_part[1]),
-    .s_i(f_part[1]), .t_i(g_part[0]), .sum_o(sum)
+    .clk_i, .first_i(sum_first_q), .shift_i(shift_q), .minus_i(minus_sum_q), .p_i(factor[0]), .q_i(factor[1]),
+    .s_i(factor[2]), .t_i(factor[3]), .sum_o(sum)
   );
 
   // ---- what a sum is, when it is there ---------------------------------------------------------------------------------------
   logic area_now, edge_now, pair_now, line_now, begin_now;
   logic [5:0] e_now;
-  shade_valid #(.DEPTH(CROSS)) u_area (.clk_i, .rst_i, .valid_i(face && whole), .valid_o(area_now));
+  shade_valid #(.DEPTH(CROSS)) u_area_now (.clk_i, .rst_i, .valid_i(face && whole), .valid_o(area_now));
   shade_valid #(.DEPTH(CROSS)) u_edge (.clk_i, .rst_i, .valid_i(edge_step), .valid_o(edge_now));
   shade_valid #(.DEPTH(CROSS)) u_pair (.clk_i, .rst_i, .valid_i(done && !is_edge), .valid_o(pair_now));
   shade_delay #(.WIDTH(2), .DEPTH(CROSS)) u_kind (
@@ -202,36 +171,25 @@ module shade_setup (
   );
 
   // ---- the area: what becomes of the triangle -------------------------------------------------------------------------
-  logic good, zero_q, negative_q, back_q, out_q, area_q1, back;
-  logic [shade_pkg::AREA_W-1:0] area_q;
+  logic good, outside;
   logic [shade_pkg::RECIPROCAL_F-1:0] r, r_q;
   logic [2:0] wait_q;
-  assign back = sum[shade_pkg::AREA_W] ? cull_i == shade_pkg::CULL_W'(shade_pkg::CULL_FRONT)
-                                       : cull_i == shade_pkg::CULL_W'(shade_pkg::CULL_BACK);
-  assign good = area_q1 && !zero_q && !back_q && !out_q;
-  assign drop = area_q1 && (zero_q || back_q || out_q);
+  assign outside = $signed(high_q) <= $signed(low_q) || $signed(bottom_q) <= $signed(top_q);
+  shade_setup_area u_area (
+    .clk_i, .rst_i, .cull_i, .valid_i(area_now), .sum_i(sum), .outside_i(outside), .good_o(good), .drop_o(drop), .told_o,
+    .minus_o(minus_q), .e_o(e), .r_o(r)
+  );
   always_ff @(posedge clk_i) begin
-    area_q1      <= area_now;
-    zero_q       <= sum == '0;
-    back_q       <= back;
-    out_q        <= $signed(high_q) <= $signed(low_q) || $signed(bottom_q) <= $signed(top_q);
-    negative_q   <= sum[shade_pkg::AREA_W];
-    area_q       <= sum[shade_pkg::AREA_W] ? -sum[shade_pkg::AREA_W-1:0] : sum[shade_pkg::AREA_W-1:0];
-    error_area_o <= area_q1 && zero_q;
-    culled_o     <= area_q1 && !zero_q && back_q;
-    empty_o      <= area_q1 && !zero_q && !back_q && out_q;
-    if (area_q1) minus_q <= negative_q;
     {known_q, wait_q} <= start ? 4'd0 : {known_q | wait_q[2], wait_q[1:0], good};
-    if (rst_i) {area_q1, error_area_o, culled_o, empty_o, known_q, wait_q} <= '0;
+    if (rst_i) {known_q, wait_q} <= '0;
   end
-  shade_reciprocal u_reciprocal (.clk_i, .start_i(good), .a_i(area_q), .e_o(e), .r_o(r));
 
   // ---- edges and increments -----------------------------------------------------------------------------------------
   localparam int SHAPE_W = $bits(edge_o) - shade_pkg::REST_W;
   logic [SHAPE_W-1:0] shape;
   logic begin_q1, begin_q2;
   shade_delay #(.WIDTH(SHAPE_W), .DEPTH(CROSS)) u_shape (
-    .clk_i, .d_i({edge_right ^ minus_q, edge_lines, edge_line, edge_column, edge_dy[W-1:0], edge_dx}), .q_o(shape)
+    .clk_i, .d_i({side.right ^ minus_q, side.lines, side.line, side.column, side.dy, side.dx}), .q_o(shape)
   );
   always_ff @(posedge clk_i) begin
     edge_valid_o         <= edge_now && !rst_i;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_starts: what a triangle's normal and depth are at the first pixel of each of its runs.
 //
-//   start_o = value + dcolumn (column - column of the first run) + dline (line - line of the first run), modulo 4
+//   value = surface value + dcolumn (column - surface column) + dline (line - surface line), modulo 4, exact
 //
-// exact, run by run: the value moves down by a line and aside by as many columns as the run begins further on. surface_i
-// is taken with its first run, and one run after the other until that with last. valid_o: a run with its start and what its
-// triangle has in common (surface_o, value outdated); credit_i gives back one of 2^CREDIT_LOG2 credits, a run costs one.
+// by additions alone: from run to run a step a line down and a step a column aside. surface_i is taken with its first run,
+// and one run after the other until that with last; runs come line by line, several on a line are allowed. begun_o: a run,
+// its triangle, and the value there; it stands until ready_i. A run that is none is passed on, without moves.
 //
-// Eight 18 x 18 blocks, two a component. Latency LATENCY_STARTS = 5 clocks, a run a clock; a line without a run costs one.
-// Example: dcolumn = 5, dline = 7; the second run is a line below and 2 columns to the left: value - 10 + 7.
-module shade_starts #(
-  parameter int CREDIT_LOG2 = 4
-) (
+// No multiplier. A run in a clock, one more for every line without a run and for every column aside, as many as
+// shade_raster takes. No path from an input to valid_o; ready_i leads to run_ready_o.
+// Example: dcolumn = 5, dline = 7; the second run is a line below and 2 columns to the left: value - 10 + 7, 3 clocks.
+module shade_starts (
   input  logic                clk_i,
   input  logic                rst_i,
   input  logic                surface_valid_i,
@@ -21,83 +20,85 @@ module shade_starts #(
   output logic                run_ready_o,
   input  shade_pkg::walked_t  run_i,
   output logic                valid_o,
-  output logic                first_o,
-  output shade_pkg::walked_t  run_o,
-  output shade_pkg::plane_t   start_o,
-  output shade_pkg::surface_t surface_o,
-  input  logic                credit_i
+  input  logic                ready_i,
+  output shade_pkg::begun_t   begun_o
 );
-  if (CREDIT_LOG2 < 3) begin : g_check
-    $error("shade_starts: CREDIT_LOG2 must be at least 3");
-  end
-
   localparam int S_W = shade_pkg::STEP_W;
   localparam int P_W = shade_pkg::PLACE_W;
   localparam int COMPONENTS = 4;
 
-  // ---- runs, and steps down over lines without one; the first run waits until the triangle before has left -----------------
-  logic inside_q, ready, step, arrive, first_step, idle, some_credit_q;
-  logic [P_W-1:0] line_q, column_q;
-  logic [CREDIT_LOG2:0] credit_q, credit;
-  shade_pkg::walked_t run_q;
-  logic run_q_valid;
-  logic [2:0] busy_q;
-  assign run_ready_o     = !run_q_valid || ready;
-  assign first_step      = !inside_q && surface_valid_i && idle;
-  assign step            = run_q_valid && some_credit_q && (inside_q || first_step);
-  assign arrive          = step && (!inside_q || run_q.line == line_q + P_W'(1));
-  assign ready           = arrive;
-  assign surface_ready_o = step && !inside_q;
-  assign idle            = busy_q == '0;
-  assign credit          = credit_q + (CREDIT_LOG2 + 1)'(credit_i) - (CREDIT_LOG2 + 1)'(arrive);
+  // ---- a run, and the way to it from the one before, or from the surface's pixel -----------------------------------------
+  logic full_q1, first_q1, next_first_q, take, load;
+  shade_pkg::walked_t run_q1;
+  shade_pkg::site_t from_q, from;
+  logic signed [P_W:0] lines_q1, columns_q1;  // lines: less the one that is made as the run moves on
+  assign from        = next_first_q ? surface_i.site : from_q;
+  assign run_ready_o = (!full_q1 || load) && (!next_first_q || (surface_valid_i && !(full_q1 && first_q1)));
+  assign take        = run_valid_i && run_ready_o;
   always_ff @(posedge clk_i) begin
-    if (run_ready_o) run_q <= run_i;
-    run_q_valid <= !rst_i && (run_ready_o ? run_valid_i : 1'b1);
-    if (step) line_q <= inside_q ? line_q + P_W'(1) : run_q.line;
-    if (arrive) column_q <= run_q.column;
-    if (arrive) inside_q <= !run_q.last;
-    if (surface_ready_o) surface_o <= surface_i;
-    busy_q        <= {busy_q[1:0], step};
-    credit_q      <= credit;
-    some_credit_q <= credit != '0;
+    if (take) begin
+      run_q1       <= run_i;
+      first_q1     <= next_first_q;
+      next_first_q <= run_i.last;
+      lines_q1     <= run_i.none ? '1 : {1'b0, run_i.line} - {1'b0, from.line} - (P_W + 1)'(!next_first_q);
+      columns_q1   <= run_i.none ? '0 : {1'b0, run_i.column} - {1'b0, from.column};
+      if (!run_i.none) from_q <= {run_i.line, run_i.column};
+    end
+    full_q1 <= take || (full_q1 && !load);
     if (rst_i) begin
-      inside_q      <= 1'b0;
-      busy_q        <= '0;
-      credit_q      <= (CREDIT_LOG2 + 1)'(1 << CREDIT_LOG2);
-      some_credit_q <= 1'b1;
+      full_q1      <= 1'b0;
+      next_first_q <= 1'b1;
     end
   end
 
-  // ---- columns aside, products, sums -----------------------------------------------------------------------------------------
-  logic signed [P_W:0] aside_q1;
-  logic step_q1, step_q2, step_q3, first_q1, first_q2, first_q3, arrive_q1, arrive_q2, arrive_q3;
-  shade_pkg::walked_t run_q1, run_q2, run_q3;
+  // ---- the way is made -----------------------------------------------------------------------------------------------------
+  logic full_q, first_q, down_q, aside_q, left, down, step;
+  shade_pkg::walked_t run_q;
+  shade_pkg::surface_t surface_q;
+  logic signed [P_W:0] lines_q, columns_q;
+  assign valid_o = full_q && !down_q && !aside_q;
+  assign load    = full_q1 && (!full_q || (valid_o && ready_i));
+  assign surface_ready_o = load && first_q1;
+  assign left    = columns_q[P_W];
+  assign down    = load || down_q;
+  assign step    = load ? !first_q1 && !lines_q1[P_W] : full_q && (down_q || aside_q);
   always_ff @(posedge clk_i) begin
-    aside_q1 <= arrive && inside_q ? {1'b0, run_q.column} - {1'b0, column_q} : '0;
-    {first_q3, first_q2, first_q1}    <= {first_q2, first_q1, !inside_q};
-    {step_q3, step_q2, step_q1}       <= rst_i ? '0 : {step_q2, step_q1, step};
-    {arrive_q3, arrive_q2, arrive_q1} <= rst_i ? '0 : {arrive_q2, arrive_q1, arrive};
-    {run_q3, run_q2, run_q1}          <= {run_q2, run_q1, run_q};
-    valid_o <= arrive_q3 && !rst_i;
-    first_o <= first_q3;
-    run_o   <= run_q3;
-  end
-  logic [COMPONENTS-1:0][S_W-1:0] value, dcolumn, dline, start;
-  assign value   = surface_o.value;
-  assign dcolumn = surface_o.dcolumn;
-  assign dline   = surface_o.dline;
-  for (genvar i = 0; i < COMPONENTS; i++) begin : g_component
-    logic signed [S_W+P_W:0] product_q3;
-    logic [S_W-1:0] start_q;
-    shade_mul #(.A_W(S_W), .B_W(P_W + 1)) u_mul (
-      .clk_i, .a_i(dcolumn[i]), .b_i(aside_q1), .p_o(product_q3)
-    );
-    always_ff @(posedge clk_i) begin
-      if (step_q3) start_q <= first_q3 ? value[i] : start_q + dline[i] + product_q3[S_W-1:0];
+    if (load) begin
+      run_q     <= run_q1;
+      first_q   <= first_q1;
+      lines_q   <= lines_q1;
+      columns_q <= columns_q1;
+      down_q    <= !lines_q1[P_W] && lines_q1 != '0;
+      aside_q   <= columns_q1 != '0;
+    end else if (down_q) begin
+      lines_q <= lines_q - (P_W + 1)'(1);
+      down_q  <= lines_q != (P_W + 1)'(1);
+    end else if (aside_q) begin
+      columns_q <= left ? columns_q + (P_W + 1)'(1) : columns_q - (P_W + 1)'(1);
+      aside_q   <= left ? columns_q != '1 : columns_q != (P_W + 1)'(1);
     end
-    assign start[i] = start_q;
-    logic unused_product;
-    assign unused_product = ^product_q3[S_W+P_W:S_W];
+    if (surface_ready_o) surface_q <= surface_i;
+    full_q <= load || (full_q && !(valid_o && ready_i));
+    if (rst_i) full_q <= 1'b0;
   end
-  assign start_o = start;
+
+  // ---- component by component ------------------------------------------------------------------------------------------------
+  logic [COMPONENTS-1:0][S_W-1:0] value_q, first_value, dcolumn, dline;
+  assign first_value = surface_i.value;
+  assign dcolumn     = surface_q.dcolumn;
+  assign dline       = surface_q.dline;
+  for (genvar i = 0; i < COMPONENTS; i++) begin : g_component
+    logic [S_W-1:0] way;
+    assign way = down ? dline[i] : dcolumn[i] ^ {S_W{left}};
+    always_ff @(posedge clk_i) begin
+      if (surface_ready_o) value_q[i] <= first_value[i];
+      else if (step) value_q[i] <= value_q[i] + way + S_W'(!down && left);
+    end
+  end
+  always_comb begin
+    begun_o.surface = surface_q;
+    begun_o.value   = value_q;
+    begun_o.run     = run_q;
+    begun_o.first   = first_q;
+  end
 endmodule

@@ -4,8 +4,8 @@
 //   lines = line - (line of the last good run) - 1, columns = column - column of the last good run: negative to the left
 //
 // A start makes one line down by itself, which is the -1. A triangle's first run is reached by no move: it is the
-// reference pixel, even if it is faulty. Faults, for one clock: empty_o, 0 pixels, but for a triangle's last run, which then
-// only ends it; long_o, more than 4096 pixels; order_o, not below the last good run. Such runs have good = 0 and no moves.
+// reference pixel, even if it is faulty. Faults, for one clock: empty_o, 0 pixels, but for a triangle's first run, and its last,
+// which then only ends it; long_o, more than 4096 pixels; order_o, not below the last good run. Such runs have good = 0 and no moves.
 // ready_o does not depend on valid_i. Latency 1 clock, a run a clock.
 // Example: runs (column 5, line 2), (column 3, line 3) -> second: lines 0, columns -2.
 module shade_direct_moves (
@@ -55,7 +55,7 @@ module shade_direct_moves (
       if (good || run_i.first) next_q <= {1'b0, run_i.line} + (W + 1)'(good);
     end
     if (ready_o) valid_o <= valid_i;
-    empty_o <= take && empty && !run_i.last;
+    empty_o <= take && empty && !run_i.last && !run_i.first;
     long_o  <= take && long;
     order_o <= take && order && !empty && !long;
     if (rst_i) begin

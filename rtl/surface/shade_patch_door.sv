@@ -8,7 +8,7 @@
 //   run_room_i       as long as it is 1, two more runs may come
 //   table_*, shift_o an entry of the table, and the lobe's shift
 //   error_o          for one clock: ERROR_EMPTY, a triangle without a box, ERROR_DIRECT, a packet that ends among the first
-//                    four beats: of both an empty last run is made; ERROR_LONG, a run that is empty but not the last, beyond
+//                    four beats: of both an empty last run is made; ERROR_LONG, a run that is empty but not the first or last, beyond
 //                    the box, or not below the one before it: it is dropped
 //
 // A beat a clock. Latency: a run 2 clocks. Example: 4 columns, 1 line, left 0, run (10, 20, 4), tlast -> place (10, 20), run
@@ -142,7 +142,7 @@ module shade_patch_door #(
 
     error_o                          <= '0;
     error_o[shade_pkg::ERROR_EMPTY]  <= take && state_q == BOX && !lobe && !s_axis_surface_tlast && no_box;
-    error_o[shade_pkg::ERROR_LONG]   <= valid_q1 && drop && !bad_q1;
+    error_o[shade_pkg::ERROR_LONG]   <= valid_q1 && drop && !bad_q1 && !(empty_q1 && first_q1);
     error_o[shade_pkg::ERROR_DIRECT] <= take && head && s_axis_surface_tlast && !(state_q == BOX && lobe);
     if (rst_i) error_o <= '0;
   end

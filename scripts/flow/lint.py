@@ -51,8 +51,9 @@ CARRIERS = {
     *("shade_fifo", "shade_credit", "shade_assert", "shade_stable"),
     *("shade_door", "shade_tally", "shade_pixel_points"),
 }
-# Machines of many parts, shade_patch_<part>, with one golden model, golden/patch.py, and one bench, that of the whole.
-MACHINES = ("shade_patch",)
+# Machines of many parts, shade_patch_<part>, with one golden model, golden/patch.py or golden.raster.setup, and one
+# bench, that of the whole.
+MACHINES = ("shade_patch", "shade_scene", "shade_setup")
 
 
 @dataclass(frozen=True)
@@ -139,9 +140,8 @@ def mirror(module: str, path: Path) -> list[str]:
     link = f"[`{module}`]({path.relative_to(RTL)})"
     if link not in (CATALOGUE.read_text() if CATALOGUE.exists() else ""):
         faults.append(f"{_short(CATALOGUE)}: no row '| {link} | ...'")
-    if whole in MACHINES and not (ROOT / "golden" / f"{whole.removeprefix('shade_')}.py").exists():
-        faults.append(f"golden/{whole.removeprefix('shade_')}.py: missing, the golden model of {whole}")
-    return faults if module in CARRIERS or whole in MACHINES else faults + _twin(path)
+    own = whole in MACHINES and (ROOT / "golden" / f"{whole.removeprefix('shade_')}.py").exists()
+    return faults if module in CARRIERS or own else faults + _twin(path)
 
 
 @functools.cache

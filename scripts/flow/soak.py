@@ -205,9 +205,8 @@ def vertices(rng: np.random.Generator, seed: int) -> Outcome:
     cull = int(rng.choice([k.CULL_NONE, k.CULL_BACK, k.CULL_FRONT]))
     view = raster.View(size, int(rng.integers(16, size)), cull, int(rng.integers(0, 2)))
     options, bins = traffic(rng, 20 * rows)
-    settings = {"cull_i": view.cull, "flat_i": view.flat, "columns_i": view.columns, "lines_i": view.lines}
     run = sim.load("shade_spans").run(
-        **raster.beats(sent), **settings, seed=seed, drain=1 << 17, patience=1 << 17, **options
+        **raster.beats(sent), **view.ports, seed=seed, drain=1 << 17, patience=1 << 17, **options
     )
     wanted = raster.scan(sent, view)
     expected = raster.lines(wanted)

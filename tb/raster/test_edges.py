@@ -8,6 +8,7 @@ from polyshade.golden import contract as k
 from polyshade.golden import raster as golden
 
 from tb.bench import Bench, checked
+from tb.raster.streams import fields
 from tb.raster.vectors import mixture, triangles
 from tb.runner import points, simulate
 
@@ -17,12 +18,6 @@ W, L_W = k.COORDINATE_W, k.LINE_W
 @points({})
 def test_cocotb(point):
     simulate("shade_edges", point)
-
-
-def signed(port: object, bits: int) -> int:
-    """A port's value as a signed number."""
-    value = int(port.value)
-    return value - (value >> bits - 1 << bits)
 
 
 @checked()
@@ -41,20 +36,19 @@ async def values(bench: Bench) -> None:
 async def one(bench: Bench, vertex: list[tuple[int, int]]) -> None:
     """A triangle: the two edges from its top vertex and the third one."""
     dut = bench.dut
-    for axis, port in enumerate((dut.x_i, dut.y_i)):
-        port.value = sum((place[axis] & (1 << W) - 1) << W * i for i, place in enumerate(vertex))
     dut.load_i.value = 1
-    await bench.tick()
-    dut.load_i.value = 0
+    for x, y in vertex:
+        dut.x_i.value, dut.y_i.value = x + 127 & (2 << W) - 1, y + 127 & (2 << W) - 1
+        await bench.tick()
+        dut.load_i.value = 0
     await bench.tick()
     await bench.until(lambda: int(dut.some_o.value) == 1, 10, "an edge")
     found = []
     for _ in range(3):
-        dx, dy = signed(dut.dx_o, W + 1), signed(dut.dy_o, W + 1)
-        line, column = signed(dut.line_o, L_W), signed(dut.column_o, L_W)
-        lines, right = int(dut.lines_o.value), int(dut.right_o.value)
-        rest = -((int(dut.u_o.value) + 1) * dy + int(dut.t_o.value) * dx) >> k.SUBPIXEL_F
-        found.append((line, lines, dx, dy, right, column - rest // dy if lines else None))
+        side = fields("side_t", int(dut.side_o.value))
+        dx, dy, line, column, lines, right = (side[n] for n in ("dx", "dy", "line", "column", "lines", "right"))
+        rest = -((side["u"] + 1) * dy + side["t"] * dx) >> k.SUBPIXEL_F
+        found.append((line, lines, dx, dy, right, column - 1 - rest // dy if lines else None))
         dut.step_i.value = 1
         await bench.tick()
         dut.step_i.value = 0

@@ -9,6 +9,7 @@ from polyshade.golden import raster as golden
 from polyshade.golden.types import VERTEX, whole
 
 from tb.bench import PRESSURE, Bench, Sink, Source, checked
+from tb.raster.streams import word
 from tb.raster.test_starts import runs, surfaces
 from tb.raster.vectors import mixture
 from tb.runner import points, simulate
@@ -33,8 +34,7 @@ def beats(v: golden.Vertices) -> list[tuple[int, int]]:
 async def triangles(bench: Bench, gap: float, stall: float) -> None:
     """Every surface and run, also when the streams stall at different times; before that, a reset at any moment."""
     dut = bench.dut
-    dut.columns_i.value = dut.lines_i.value = SIZE
-    dut.cull_i.value, dut.flat_i.value = k.CULL_NONE, 0
+    dut.view_i.value = word("view_t", columns=SIZE, lines=SIZE, cull=k.CULL_NONE)
     ports = [f"s_axis_vertex_t{name}" for name in ("data", "last")]
     source = Source(bench, "s_axis_vertex_tvalid", "s_axis_vertex_tready", ports)
     planes = Sink(bench, "surface_valid_o", "surface_ready_i", ["surface_o"], stall)
@@ -46,6 +46,7 @@ async def triangles(bench: Bench, gap: float, stall: float) -> None:
         task.cancel()
         source.withdraw()
         await bench.reset(1)
+        await bench.tick()
         planes.forget()
         places.forget()
     s = golden.scan(v, golden.View(SIZE, SIZE, k.CULL_NONE))

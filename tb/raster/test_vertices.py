@@ -23,10 +23,10 @@ def test_triangles(flat: int, in_gap: float, out_stall: float) -> None:
     v = golden.take(v, np.flatnonzero(~bad))
     out, mask = run.outputs, (1 << k.COORDINATE_W + 1) - 1
     for name, value in (("x", v.x), ("y", v.y)):
-        assert np.array_equal(unpacked(out[f"{name}_o"], k.COORDINATE_W, 3), value)
+        assert np.array_equal(unpacked(out[f"{name}_o"], k.COORDINATE_W + 1, 1)[:, 0], value[:, 0] + 127)
         step = value[:, 1:] - value[:, :1] & mask
         assert np.array_equal(out[f"d{name}_o"], step[:, 0] | step[:, 1] << k.COORDINATE_W + 1)
-        assert np.array_equal(out[f"corner_o.{name}"], value[:, 0])
+        assert np.array_equal(out[f"corner_o.{name}"], value[:, 0] + 127)
     assert np.array_equal(out["corner_o.depth"], v.depth[:, 0])
     assert np.array_equal(out["corner_o.tag"], v.tag)
     assert np.array_equal(out["corner_o.flat"], v.flat)

@@ -60,11 +60,6 @@ def join(parts: list[golden.Vertices], order: np.ndarray | None = None) -> golde
     return whole if order is None else golden.take(whole, order)
 
 
-def settings(view: golden.View) -> dict[str, int]:
-    """The ports of a view."""
-    return {"cull_i": view.cull, "flat_i": view.flat, "columns_i": view.columns, "lines_i": view.lines}
-
-
 def edges(v: golden.Vertices, row: int) -> list[dict[str, int]]:
     """The three edges of a triangle by the names of ``edge_t``, the two from its top vertex first."""
     places = [(int(x), int(y)) for x, y in zip(v.x[row], v.y[row], strict=True)]
@@ -76,8 +71,8 @@ def edges(v: golden.Vertices, row: int) -> list[dict[str, int]]:
         up = height[b] < height[a]
         (x, y), (x2, y2) = (places[b], places[a]) if up else (places[a], places[b])
         dx, dy = x2 - x, y2 - y
-        line, column = int(golden.line_of(y)), int(golden.line_of(x)) - 1
-        rest = -((x + 128 - 256 * (column + 1)) * dy + (256 * line + 128 - y) * dx) >> k.SUBPIXEL_F
+        line, column = int(golden.line_of(y)), int(golden.line_of(x))
+        rest = -((x + 128 - 256 * column) * dy + (256 * line + 128 - y) * dx) >> k.SUBPIXEL_F
         shape = {"rest": rest, "dx": dx, "dy": dy, "column": column, "line": line}
         made.append(shape | {"lines": int(golden.line_of(y2)) - line, "right": int(up != positive)})
     return made

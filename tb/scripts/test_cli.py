@@ -751,8 +751,8 @@ def test_interrupted(polyshade, place, earlier, monkeypatch) -> None:
 @pytest.mark.timeout(HANGS, method="thread")  # a run that does not end cannot be interrupted
 def test_a_module_that_stops(polyshade, place, earlier, monkeypatch) -> None:
     """A frame that never ends is told, with the line to run it again; here the consumer never takes a pixel."""
-    run = model.Model.run
-    monkeypatch.setattr(model.Model, "run", lambda self, **inputs: run(self, out_stall=1, patience=1000, **inputs))
+    run, slow = model.Model.run, {"out_stall": 1, "patience": 1000}
+    monkeypatch.setattr(model.Model, "run", lambda self, **inputs: run(self, **inputs | slow))
     status, out, err = polyshade(*SMALL, "--out", "out")
     assert (status, out) == (1, "")
     assert err.count("\n") == 1

@@ -147,7 +147,7 @@ def test_lanes_draw_the_same() -> None:
 
 def test_a_fault_of_the_rtl_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """From the model's outputs into report, error and picture."""
-    settings = frame.Settings(mesh="sphere", camera=Camera(size=40))
+    settings = frame.Settings(mesh="sphere", camera=Camera(size=40), scan="host")
     sound = frame.render(settings)
     run = sim.Model.run
 

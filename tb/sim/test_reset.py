@@ -18,7 +18,7 @@ from polyshade.sim import core
 from polyshade.sim import patch as patches
 from polyshade.sim.units import unit_vectors
 
-from tb.raster.vectors import mixture, settings
+from tb.raster.vectors import mixture
 from tb.runner import FULL, SEED
 
 LIGHT = (0.3, 0.6, 0.8)
@@ -77,7 +77,7 @@ def shade_direct(rng: np.random.Generator) -> tuple[sim.Model, dict]:
 def shade_spans(rng: np.random.Generator) -> tuple[sim.Model, dict]:
     view = raster.View(64, 64, k.CULL_NONE)
     waits = {"drain": 1 << 15, "patience": 1 << 15}
-    return sim.load("shade_spans"), raster.beats(mixture(rng, 12, 64)) | settings(view) | waits
+    return sim.load("shade_spans"), raster.beats(mixture(rng, 12, 64)) | view.ports | waits
 
 
 STREAMS = {

@@ -12,6 +12,7 @@ waveform) and, as always with cocotb, on ``COCOTB_TEST_FILTER``.
 
 import contextlib
 import fcntl
+import json
 import logging
 import os
 from collections.abc import Iterator
@@ -31,6 +32,7 @@ WAVES = os.environ.get("WAVES", "0") not in ("", "0")
 TESTS = Path(os.environ["NETLIST"]).parent / "test" if "NETLIST" in os.environ else BUILD / "test"
 FULL = os.environ.get("FULL", "0") not in ("", "0")
 NETLIST = Path(os.environ["NETLIST"]) if "NETLIST" in os.environ else None  # in place of the RTL: `make mutants`
+MUTANTS = [int(number) for number in os.environ.get("MUTANTS", "").split(",") if number]  # faults of it, one by one
 HANGS = 600  # seconds after which a process is given up: ten times what the slowest needs, never a measure of speed
 
 # Registers that are not reset start with random bits: a missing reset shows.
@@ -51,19 +53,31 @@ def simulate(module: str, point: Point, bench: str = "", public: tuple[str, ...]
     with _locked(folder), mock.patch.dict(os.environ, tools.environment()):
         library, _ = verilate.build(module, point, glue, waves=WAVES, public=public, netlist=NETLIST)
         os.environ |= {"MODEL": str(library), "POINT": label(module, point)}
-        results = _run(module, library, bench, folder)
+        _link(module, library, folder)
+        if MUTANTS:
+            Path(os.environ["KILLED"]).write_text(json.dumps([m for m in MUTANTS if _killed(m, module, bench, folder)]))
+            return
+        told = _faults(label(module, point), _run(module, bench, folder))
     if WAVES:
         print(f"waveform: {folder / 'dump.vcd'}")
-
-    cases = list(ElementTree.parse(results).iter("testcase")) if results.exists() else []
-    told = [
-        f"{label(module, point)} {case.get('name')}: {_words(fault)}"
-        for case in cases for fault in [*case.iterfind("failure"), *case.iterfind("error")]
-    ]  # fmt: skip
-    if not cases:
-        told = [f"{label(module, point)}: no cocotb test ran to its end"]
     if told:
         pytest.fail("\n".join([*told, f"log: {folder / 'run.log'}"]), pytrace=False)
+
+
+def _killed(mutant: int, module: str, bench: str, folder: Path) -> bool:
+    """Does the bench fail with a fault of the netlist?"""
+    os.environ["MUTANT"] = str(mutant)
+    return bool(_faults(module, _run(module, bench, folder)))
+
+
+def _faults(name: str, results: Path) -> list[str]:
+    """The words of every cocotb test that failed, and of there being none."""
+    cases = list(ElementTree.parse(results).iter("testcase")) if results.exists() else []
+    told = [
+        f"{name} {case.get('name')}: {_words(fault)}"
+        for case in cases for fault in [*case.iterfind("failure"), *case.iterfind("error")]
+    ]  # fmt: skip
+    return told if cases else [f"{name}: no cocotb test ran to its end"]
 
 
 def _words(fault: ElementTree.Element) -> str | None:
@@ -71,14 +85,18 @@ def _words(fault: ElementTree.Element) -> str | None:
     return fault.get("message") if fault.get("type") == "Mismatch" else fault.text
 
 
-def _run(module: str, library: Path, bench: str, folder: Path) -> Path:
-    """Link cocotb to the model, simulate, and return the results file, missing when the simulator broke down."""
+def _link(module: str, library: Path, folder: Path) -> None:
+    """cocotb's main program with the model."""
     cocotb = Path(cocotb_tools.config.libs_dir)
     verilate.run(
         ["g++", "-o", folder / module, _main(), library, "-L", cocotb, "-lcocotbvpi_verilator",
          f"-Wl,-rpath,{cocotb}", "-Wl,--unresolved-symbols=ignore-in-shared-libs"],
         folder,
     )  # fmt: skip
+
+
+def _run(module: str, bench: str, folder: Path) -> Path:
+    """Simulate and return the results file, which is missing when the simulator broke down."""
     runner = get_runner("verilator")
     runner.log.setLevel(logging.CRITICAL)  # its words stand in the logs
     results = folder / "results.xml"

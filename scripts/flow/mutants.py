@@ -300,20 +300,21 @@ def by_bench(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]
     if any(not case.own_bench for case in target.cases):
         tests.insert(0, f"tb/test_units.py::test_cocotb[{label(target.top, target.point)}]")
 
-    def passes(mutant: int) -> bool:
-        environment = os.environ | {"MUTANT": str(mutant), "NETLIST": str(faults.verilog)}
-        command = [sys.executable, "-m", "pytest", "-q", "-x", "-n", "0", "-p", "no:cacheprovider", *tests]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
-        (faults.folder / "bench.log").write_text(done.stdout + done.stderr)
-        if done.returncode not in (0, 1):
-            raise UserError(f"{target.module}: {faults.folder / 'bench.log'}: the bench did not run")
-        return done.returncode == 0
-
-    if not passes(0):
-        raise Differs(f"{target.module}: its bench fails without a fault")
-    for mutant in alive:
-        if not passes(mutant):
-            yield mutant
+    alive = [0, *alive]  # 0: without a fault
+    for test in tests:
+        path = faults.folder / f"killed-{os.getpid()}.json"
+        path.unlink(missing_ok=True)
+        more = {"MUTANTS": ",".join(map(str, alive)), "NETLIST": str(faults.verilog), "KILLED": str(path)}
+        command = [sys.executable, "-m", "pytest", "-q", "-n", "0", "--timeout", "0", "-p", "no:cacheprovider", test]
+        done = subprocess.run(command, cwd=ROOT, env=os.environ | more, capture_output=True, text=True)
+        if not path.exists():
+            (faults.folder / "bench.log").write_text(done.stdout + done.stderr)
+            raise UserError(f"{faults.folder / 'bench.log'}: {test} did not run")
+        dead = json.loads(path.read_text())
+        if 0 in dead:
+            raise Differs(f"{target.module}: {test} fails without a fault")
+        yield from dead
+        alive = [mutant for mutant in alive if mutant not in dead]
 
 
 def exhausted(target: Target, faults: Netlist, alive: list[int]) -> bool:

@@ -93,6 +93,7 @@ ALL = [
     Proof("node_walk", ("shade_node_walk",), depth=12, quick=False),
     Proof("door", ("shade_door",)),
     Proof("room", ("shade_patch_room",)),
+    Proof("direct_door", ("shade_direct_door",), seconds=60),
     Proof("registers", ("shade_registers",), depth=40, quick=False),
     Proof("collect", ("shade_collect",), quick=False),
     *(

@@ -82,6 +82,7 @@ LOBE_K1_W = 21
 LOBE_K2_F = 17  # k2 of the shifted x, S0.17
 LOBE_K2_W = 18
 LOBE_X_F = 16  # xmax, U1.16, and the part of the shifted x, U1.20, that a multiplier takes
+LOBE_SCALED_F = 20  # fraction bits of the scaled x
 LOBE_SLOPE_F = 17  # fraction bits of the shifted x that k2 is multiplied by
 LOBE_SHIFT_W = 3  # x is shifted left by 0 .. 6
 LOBE_POWER_W = 3  # squarings, 0 .. 4; more count as 4
@@ -289,7 +290,8 @@ LATENCY_GAIN = 3 * LATENCY_MUL_IN + 3  # products, two shifter levels, rounding
 LATENCY_FACTOR = max(LATENCY_LOBE + 1, LATENCY_GEOMETRY)  # the lobe or what stands for it; what it is multiplied by
 LATENCY_ANGLES = LATENCY_REFLECT + 1 + LATENCY_VERSINE  # R, choice of R, V or N, H
 LATENCY_LIGHT = LATENCY_ANGLES + LATENCY_FACTOR + LATENCY_GAIN
-LATENCY_LIGHT_FOLDED = 12 + LATENCY_LOBE_FOLDED + 11  # the versine's six products, the gain's three
+LATENCY_ANGLES_FOLDED = LATENCY_MUL + 9  # six products, their sums, clamp
+LATENCY_LIGHT_FOLDED = LATENCY_ANGLES_FOLDED + LATENCY_LOBE_FOLDED + LATENCY_GAIN  # FOLD = 5: 5 more, as of the lobe
 LATENCY_LIGHT_LOCAL = LATENCY_HALFWAY + 1 + LATENCY_VERSINE + LATENCY_FACTOR + LATENCY_GAIN
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
 LATENCY_KAPPA = 4 + LATENCY_MUL + 2 + LATENCY_MUL + 4  # common shift, squares, sums, product, shift, range
@@ -313,8 +315,7 @@ LATENCY_RECORD = 1 + LATENCY_LIGHT + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATE
 LATENCY_LANE = LATENCY_LINE + LATENCY_RECORD
 LATENCY_LANE_NORMALS = LATENCY_PIXEL_NORMALS + LATENCY_RECORD  # the path of normals
 LATENCY_LANE_FOLDED = (  # parts with FOLD = 6 take what comes in every sixth clock
-    -(-(LATENCY_LINE_FOLDED + 1) // 6) * 6
-    + (LATENCY_LIGHT_FOLDED + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF)
+    LATENCY_LINE_FOLDED + 1 + (LATENCY_LIGHT_FOLDED + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF)
 )
 LATENCY_CORE = 1 + LATENCY_LANE  # the door
 LATENCY_PAINT = LATENCY_COLOUR + LATENCY_FIFO

@@ -53,19 +53,18 @@ def reflect(nx: ArrayLike, ny, nz, lx, ly, lz) -> tuple[Int, Int, Int]:
 
 
 def halfway(lx: ArrayLike, ly, lz, vx, vy, vz) -> tuple[Int, ...]:
-    """(x, y, z, vh, zero): H = (L + V) / |L + V|, S1.16, V.H, U1.16, clamped, 1 where L = -V (``shade_halfway``).
+    """(x, y, z, vh): H = (L + V) / |L + V|, S1.16, and V.H, U1.16, clamped (``shade_halfway``).
 
     L + V saturates to S1.16, of unit vectors at (2, 0, 0) and its like alone. ``normalize``, then ``dot3``: H within
     5/8 ulp, V.H within 1.6 ulp for unit vectors. L = -V gives 0.
 
     >>> [int(v) for v in halfway(65536, 0, 0, 0, 0, 65536)]  # 0.7071, 0, 0.7071, cosine 0.7071
-    [46341, 0, 46341, 46341, 0]
+    [46341, 0, 46341, 46341]
     """
     v = integers(lx, ly, lz, vx, vy, vz)
     s = [limit(p + q) for p, q in zip(v[:3], v[3:], strict=True)]
     h = normalize(*s)
-    zero = (s[0] | s[1] | s[2]) == 0
-    return *h, clamp(dot3(*v[3:], *h))[0], zero.astype(np.int64)
+    return *h, clamp(dot3(*v[3:], *h))[0]
 
 
 def fresnel(c: ArrayLike, f0: ArrayLike) -> Int:
@@ -181,27 +180,39 @@ def lobe(
     >>> int(lobe(1 << 17, 1 << 20, 1 << 15, 1, 131071, 4))  # k1 = 2, k2 = 1: (1 - 1/8)^32 = 0.0139, 914
     914
     """
-    x, k1, k2, shift, xmax, power = integers(x, k1, k2, shift, xmax, power)
+    x, shift, xmax = integers(x, shift, xmax)
     fine = shift == k.LOBE_FINE
-    scaled = np.minimum(x << np.where(fine, 0, shift), xmax << k.VERSINE_F - k.LOBE_X_F)
+    scaled = np.minimum(x << np.where(fine, 0, shift), xmax << k.LOBE_SCALED_F - k.LOBE_X_F)
+    return lobe_scaled(scaled, x > 1 << k.VERSINE_F, k1, k2, fine, power, stages)
+
+
+def lobe_scaled(
+    scaled: ArrayLike, dark: ArrayLike, k1: ArrayLike, k2: ArrayLike, fine: ArrayLike, power: ArrayLike, stages: int = 4
+) -> Int:
+    """:func:`lobe` behind its X, U1.20 (``shade_lobe_folded``); 0 where it is dark.
+
+    >>> int(lobe_scaled(1 << 18, 0, 1 << 20, 1 << 15, 0, 4))
+    914
+    """
+    scaled, dark, k1, k2, fine, power = integers(scaled, dark, k1, k2, fine, power)
 
     # k1 and the middle of what k2 is not multiplied by, 21 fraction bits
     middle = 2 * k1 - (k2 >> k.LOBE_K2_F + k.LOBE_SLOPE_F - k.LOBE_K1_F)
-    product = k2 * (scaled >> k.VERSINE_F - k.LOBE_SLOPE_F)
+    product = k2 * (scaled >> k.LOBE_SCALED_F - k.LOBE_SLOPE_F)
     product_f = k.LOBE_K2_F + k.LOBE_SLOPE_F
     s = round((middle << product_f - k.LOBE_K1_F - 1) - product, product_f - k.LOBE_S_F)
     s = saturate(s, k.LOBE_S_F + 1)
 
     # s X of s = s' + the last bit and X = X' + the last four bits: s' X', and of the others what counts
-    first, last = scaled >> k.VERSINE_F - k.LOBE_X_F, scaled & (1 << k.VERSINE_F - k.LOBE_X_F) - 1
-    rows = (s >> k.LOBE_S_F - k.LOBE_ROW_F) * last  # VERSINE_F + LOBE_ROW_F = 27 fraction bits
+    first, last = scaled >> k.LOBE_SCALED_F - k.LOBE_X_F, scaled & (1 << k.LOBE_SCALED_F - k.LOBE_X_F) - 1
+    rows = (s >> k.LOBE_S_F - k.LOBE_ROW_F) * last  # LOBE_SCALED_F + LOBE_ROW_F = 27 fraction bits
     bit = (s & 1) * (first >> k.LOBE_X_F - k.LOBE_BIT_F)  # LOBE_S_F + LOBE_BIT_F = 22
     total_f = k.LOBE_S_F - 1 + k.LOBE_X_F
-    total = (s >> 1) * first + (rows << total_f - k.VERSINE_F - k.LOBE_ROW_F)
+    total = (s >> 1) * first + (rows << total_f - k.LOBE_SCALED_F - k.LOBE_ROW_F)
     y = round(total + (bit << total_f - k.LOBE_S_F - k.LOBE_BIT_F), total_f - k.LOBE_F)
 
     one = 1 << k.LOBE_F
-    y = np.where(x > 1 << k.VERSINE_F, one, np.minimum(y >> np.where(fine, k.LOBE_FINE_F, 0), one))
+    y = np.where(dark, one, np.minimum(y >> np.where(fine, k.LOBE_FINE_F, 0), one))
     for stage in range(stages):
         high = y >= one >> 1
         z = np.where(high, np.maximum(one - 1 - y, 0), y) >> k.LOBE_F - k.LOBE_Z_F | 1
@@ -219,14 +230,14 @@ MATERIAL = ("model", "cosine", *LOBE, "inv_n", "inv_n_exp", "gain", "gain_exp")
 def angles(
     mirror: ArrayLike, n: Vector, l: Vector, v: Vector, h: Vector, form: int = k.FORM_REFINED,  # noqa: E741
 ) -> tuple[Int, ...]:  # fmt: skip
-    """(diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range, lost) of unit vectors (``shade_angles``).
+    """(diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range) of unit vectors (``shade_angles``).
 
     diffuse = n.l, S1.16, saturated; nl, nv, U1.16: n.l, n.v clamped to [0, 1]; x, U2.20: 1 - r.v where ``mirror`` is
-    set, else 1 - n.h (:func:`versine`); ``_range``: 1 for a cosine beyond [-1, 1]; lost: 1 for h = 0.
+    set, else 1 - n.h (:func:`versine`); ``_range``: 1 for a cosine beyond [-1, 1].
 
     >>> z = (0, 0, 65536)
     >>> [int(i) for i in angles(0, z, z, z, z)]
-    [65536, 65536, 65536, 0, 0, 0, 0, 0, 0]
+    [65536, 65536, 65536, 0, 0, 0, 0, 0]
     """
     n, l, v, h = (integers(*vector) for vector in (n, l, v, h))  # noqa: E741
     nl, nv = dot3(*n, *l), dot3(*n, *v)
@@ -234,7 +245,7 @@ def angles(
     b = (np.where(mirror, *pair) for pair in zip(v, h, strict=True))
     x, x_range = versine(*a, *b, form=form)
     diffuse = limit(nl)
-    flags = (diffuse != nl, np.abs(nl) > ONE, np.abs(nv) > ONE, x_range, (h[0] | h[1] | h[2]) == 0)
+    flags = (diffuse != nl, np.abs(nl) > ONE, np.abs(nv) > ONE, x_range)
     return diffuse, clamp(nl)[0], clamp(nv)[0], x, *(flag.astype(np.int64) for flag in flags)
 
 
@@ -259,9 +270,10 @@ def reflectance(
     refused = (code > k.MODEL_WARD) | np.isin(code, left_out)
     code = np.where(refused, k.MODEL_LAMBERT, code)
 
-    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range, lost = angles(code == k.MODEL_PHONG, n, l, v, h, form)
-    lost &= code > k.MODEL_PHONG
-    shape = np.select([lost == 1, code == k.MODEL_SCHLICK], [0, ONE], lobe(x, *of_lobe))
+    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range = angles(code == k.MODEL_PHONG, n, l, v, h, form)
+    hx, hy, hz = integers(*h)
+    lost = (code > k.MODEL_PHONG) & ((hx | hy | hz) == 0)
+    shape = np.select([lost, code == k.MODEL_SCHLICK], [0, ONE], lobe(x, *of_lobe))
     num, w, e, zero = geometry(code, x, nl, nv, vh, cosine, inv_n, inv_n_exp)
     specular, too_bright = gain(shape, num, w, e, f, mantissa, exponent)
     flags = {
@@ -294,6 +306,6 @@ def light_local(
     Beside ``MATERIAL`` the register f0 of Fresnel's factor.
     """
     l, v = (lx, ly, lz), (vx, vy, vz)  # noqa: E741
-    *h, vh, _ = halfway(*l, *v)
+    *h, vh = halfway(*l, *v)
     f = fresnel(vh, registers["f0"])
     return reflectance((nx, ny, nz), l, v, h, vh, f, registers, form, phong, divide)

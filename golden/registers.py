@@ -145,9 +145,9 @@ GROUPS: dict[str, tuple[Register, ...]] = {
         0x80,
         "rw",
         MODEL=(_put("material.model", meaning=_codes("MODEL")), _put("material.cosine", 8)),
-        K1=_put("material.k1"),
-        K2=_put("material.k2"),
-        XMAX=(_put("material.xmax"), _put("material.shift", 24), _put("material.power", 28, 4)),
+        K1=_put("material.lobe.k1"),
+        K2=_put("material.lobe.k2"),
+        XMAX=(_put("material.lobe.xmax"), _put("material.lobe.shift", 24), _put("material.lobe.power", 28, 4)),
         INV_N=(_put("material.inv_n"), _put("material.inv_n_exp", 24)),
         GAIN=(_put("material.gain"), _put("material.gain_exp", 24)),
         F0=_put("material.f0"),
@@ -230,7 +230,7 @@ def draw(values: Mapping[str, int]) -> dict[str, int]:
 
     Settings that are not named are as reset leaves them. ValueError as in ``pack``.
 
-    >>> draw({"ks_b": 5})["colour.ks.b"], draw({})["material.power"]
+    >>> draw({"ks_b": 5})["colour.ks.b"], draw({})["material.lobe.power"]
     (5, 4)
     """
     if unknown := values.keys() - after_reset().keys():

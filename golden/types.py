@@ -710,6 +710,30 @@ FLAGS = Struct(
         Field("saturated", 1, "light beyond its format"),
     ),
 )
+ANGLES = Struct(
+    "angles_t",
+    "the cosines at a point",
+    (
+        Field("diffuse", k.INTENSITY_W, "N.L, saturated", "S1.16"),
+        Field("nl", k.INTENSITY_F + 1, "N.L in [0, 1]", "U1.16"),
+        Field("nv", k.INTENSITY_F + 1, "N.V in [0, 1]", "U1.16"),
+        Field("x", k.VERSINE_W, "1 less the cosine that the lobe is a function of", "U2.20"),
+        Field("saturated", 1, "N.L was beyond its format"),
+        Field("nl_range", 1, "N.L was outside [-1, 1]"),
+        Field("nv_range", 1, "N.V was outside [-1, 1]"),
+        Field("x_range", 1, "x was outside [0, 2]"),
+    ),
+)
+FACTOR = Struct(
+    "factor_t",
+    "what a lobe is multiplied by: num (1 + w) 2^e",
+    (
+        Field("num", k.INTENSITY_F + 1, "", "U1.16"),
+        Field("w", k.FACTOR_F, "", "S0.18"),
+        Field("e", k.FACTOR_EXP_W, "", "S6.0"),
+        Field("zero", 1, "there is none: a denominator of 0"),
+    ),
+)
 COEF = Struct(
     "coef_t",
     "A t^3 + B t^2 + C t + D",
@@ -743,12 +767,10 @@ PLANNER = Struct(
         Field("threshold", k.INTENSITY_W, "V1, V2, V4, V5: a shorter middle is normalized", "S1.16"),
     ),
 )
-MATERIAL = Struct(
-    "material_t",
-    "a material",
+HIGHLIGHT = Struct(
+    "highlight_t",
+    "the lobe of a material",
     (
-        Field("model", k.MODEL_W, "MODEL_*"),
-        Field("cosine", 1, "specular light is multiplied by N.L"),
         Field("k1", k.LOBE_K1_W, "of the lobe, for the scaled x", "U1.20"),
         Field("k2", k.LOBE_K2_W, "of the lobe, for the scaled x", "S0.17"),
         Field("xmax", k.LOBE_X_F + 1, "limit of the scaled x", "U1.16"),
@@ -758,6 +780,15 @@ MATERIAL = Struct(
             f"x is scaled by 2^shift; {k.LOBE_FINE}: not, but k1 and k2 are by {1 << k.LOBE_FINE_F}",
         ),
         Field("power", k.LOBE_POWER_W, "squarings of the lobe, 0 to 4; more count as 4"),
+    ),
+)
+MATERIAL = Struct(
+    "material_t",
+    "a material",
+    (
+        Field("model", k.MODEL_W, "MODEL_*"),
+        Field("cosine", 1, "specular light is multiplied by N.L"),
+        _part("lobe", HIGHLIGHT),
         Field("inv_n", k.INTENSITY_F + 1, "Schlick: 1/n, mantissa", "U1.16"),
         Field("inv_n_exp", k.INV_EXP_W, "and negative exponent"),
         Field("gain", k.GAIN_F + 1, "of specular light, mantissa", "U1.16"),

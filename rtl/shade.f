@@ -5,6 +5,7 @@ shade_pkg.sv
 fixed/shade_delay.sv
 fixed/shade_ring.sv
 fixed/shade_hold.sv
+fixed/shade_wait.sv
 fixed/shade_valid.sv
 fixed/shade_round.sv
 fixed/shade_saturate.sv
@@ -76,14 +77,16 @@ light/shade_reflect.sv
 light/shade_halfway.sv
 light/shade_fresnel.sv
 light/shade_colour.sv
+light/shade_lobe_pkg.sv
+light/shade_lobe_folded.sv
 light/shade_lobe.sv
 light/shade_geometry.sv
 light/shade_gain.sv
+light/shade_angles_folded.sv
 light/shade_angles.sv
 light/shade_reflectance.sv
 light/shade_light.sv
 light/shade_light_local.sv
-light/shade_light_folded.sv
 core/shade_collect.sv
 core/shade_paint.sv
 core/shade_registers.sv

@@ -100,6 +100,7 @@ package shade_pkg;
   localparam int LOBE_K2_F = 17;  // k2 of the shifted x, S0.17
   localparam int LOBE_K2_W = 18;
   localparam int LOBE_X_F = 16;  // xmax, U1.16, and the part of the shifted x, U1.20, that a multiplier takes
+  localparam int LOBE_SCALED_F = 20;  // fraction bits of the scaled x
   localparam int LOBE_SLOPE_F = 17;  // fraction bits of the shifted x that k2 is multiplied by
   localparam int LOBE_SHIFT_W = 3;  // x is shifted left by 0 .. 6
   localparam int LOBE_POWER_W = 3;  // squarings, 0 .. 4; more count as 4
@@ -306,7 +307,8 @@ package shade_pkg;
   localparam int LATENCY_FACTOR = 32;  // the lobe or what stands for it; what it is multiplied by
   localparam int LATENCY_ANGLES = 17;  // R, choice of R, V or N, H
   localparam int LATENCY_LIGHT = 61;
-  localparam int LATENCY_LIGHT_FOLDED = 56;  // the versine's six products, the gain's three
+  localparam int LATENCY_ANGLES_FOLDED = 11;  // six products, their sums, clamp
+  localparam int LATENCY_LIGHT_FOLDED = 56;  // FOLD = 5: 5 more, as of the lobe
   localparam int LATENCY_LIGHT_LOCAL = 76;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
@@ -320,7 +322,7 @@ package shade_pkg;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
   localparam int LATENCY_LANE = 141;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
-  localparam int LATENCY_LANE_FOLDED = 152;  // parts with FOLD = 6 take what comes in every sixth clock
+  localparam int LATENCY_LANE_FOLDED = 151;  // parts with FOLD = 6 take what comes in every sixth clock
   localparam int LATENCY_CORE = 142;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums
@@ -491,9 +493,12 @@ package shade_pkg;
   localparam int NODE_BITS = 95;
   localparam int INTENSITY_BITS = 36;
   localparam int FLAGS_BITS = 4;
+  localparam int ANGLES_BITS = 78;
+  localparam int FACTOR_BITS = 43;
   localparam int COEF_BITS = 93;
   localparam int CONTROL_BITS = 7;
   localparam int PLANNER_BITS = 132;
+  localparam int HIGHLIGHT_BITS = 62;
   localparam int MATERIAL_BITS = 127;
   localparam int LIGHT_BITS = 125;
   localparam int COLOUR_BITS = 153;
@@ -1004,6 +1009,26 @@ package shade_pkg;
     logic model;  // a reserved model, or one that was not built in
   } flags_t;
 
+  // the cosines at a point
+  typedef struct packed {
+    logic x_range;  // x was outside [0, 2]
+    logic nv_range;  // N.V was outside [-1, 1]
+    logic nl_range;  // N.L was outside [-1, 1]
+    logic saturated;  // N.L was beyond its format
+    logic [21:0] x;  // U2.20: 1 less the cosine that the lobe is a function of
+    logic [16:0] nv;  // U1.16: N.V in [0, 1]
+    logic [16:0] nl;  // U1.16: N.L in [0, 1]
+    logic signed [17:0] diffuse;  // S1.16: N.L, saturated
+  } angles_t;
+
+  // what a lobe is multiplied by: num (1 + w) 2^e
+  typedef struct packed {
+    logic zero;  // there is none: a denominator of 0
+    logic signed [6:0] e;  // S6.0
+    logic signed [17:0] w;  // S0.18
+    logic [16:0] num;  // U1.16
+  } factor_t;
+
   // A t^3 + B t^2 + C t + D
   typedef struct packed {
     logic signed [24:0] a;  // S8.16
@@ -1030,6 +1055,15 @@ package shade_pkg;
     logic [16:0] sharpness;  // U1.16: n of the cos^n that turns as fast as the highlight, mantissa
   } planner_t;
 
+  // the lobe of a material
+  typedef struct packed {
+    logic [2:0] power;  // squarings of the lobe, 0 to 4; more count as 4
+    logic [2:0] shift;  // x is scaled by 2^shift; 7: not, but k1 and k2 are by 4
+    logic [16:0] xmax;  // U1.16: limit of the scaled x
+    logic signed [17:0] k2;  // S0.17: of the lobe, for the scaled x
+    logic [20:0] k1;  // U1.20: of the lobe, for the scaled x
+  } highlight_t;
+
   // a material
   typedef struct packed {
     logic [16:0] f0;  // U1.16: Fresnel's factor at V.H = 1, where it is computed at every node
@@ -1037,11 +1071,7 @@ package shade_pkg;
     logic [16:0] gain;  // U1.16: of specular light, mantissa
     logic [3:0] inv_n_exp;  // and negative exponent
     logic [16:0] inv_n;  // U1.16: Schlick: 1/n, mantissa
-    logic [2:0] power;  // squarings of the lobe, 0 to 4; more count as 4
-    logic [2:0] shift;  // x is scaled by 2^shift; 7: not, but k1 and k2 are by 4
-    logic [16:0] xmax;  // U1.16: limit of the scaled x
-    logic signed [17:0] k2;  // S0.17: of the lobe, for the scaled x
-    logic [20:0] k1;  // U1.20: of the lobe, for the scaled x
+    highlight_t lobe;  // the lobe of a material
     logic cosine;  // specular light is multiplied by N.L
     logic [2:0] model;  // MODEL_*
   } material_t;
@@ -1136,11 +1166,11 @@ package shade_pkg;
     17'd0,  // material.gain
     4'd0,  // material.inv_n_exp
     17'd0,  // material.inv_n
-    3'd4,  // material.power
-    3'd0,  // material.shift
-    17'd0,  // material.xmax
-    18'd0,  // material.k2
-    21'd0,  // material.k1
+    3'd4,  // material.lobe.power
+    3'd0,  // material.lobe.shift
+    17'd0,  // material.lobe.xmax
+    18'd0,  // material.lobe.k2
+    21'd0,  // material.lobe.k1
     1'd0,  // material.cosine
     3'd0,  // material.model
     18'd58982,  // planner.threshold

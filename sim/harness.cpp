@@ -13,7 +13,7 @@
 //   registers         are written after reset, before the streams, and read when these are drained
 //   CLOCKED = false   combinational: a row is evaluated at once
 //   input             transfers when it is offered and in_ready
-//   phase             counts 0 to `pace` - 1 from reset on; where the module has one, an input is taken in phase 0
+//   phase             counts 0 to `pace` - 1 from reset on; where the module has one, an input is taken in phase `take`
 //   output            transfers when valid and ready; without OUT_VALID a row leaves `latency` clocks after it entered
 
 #include <cstdint>
@@ -157,7 +157,7 @@ struct Job {
     uint64_t reset_at;  // a clock with reset, behind which everything begins anew; ~0: none
     uint64_t most;  // clocks, after which the module is given up
     uint64_t mutant;
-    uint64_t latency, pace, drain, patience;
+    uint64_t latency, pace, take, drain, patience;
     const char* waves;
     uint32_t (*words)[2];  // offset and word, of registers to write, then of those to read
     uint64_t writes, reads;
@@ -214,7 +214,7 @@ int model_run(Job* job, void** session) try {
         if (job->rows) drive(*s->top, job->in, 0);  // settings among the inputs
         rest(*s->top);
         set_reset(*s->top, 1);
-        set_phase(*s->top, 0);
+        set_phase(*s->top, job->take);
         set_in_valid(*s->top, 0);
         set_out_ready(*s->top, 0);
         for (int i = 0; i < 3; i++) {
@@ -229,7 +229,7 @@ int model_run(Job* job, void** session) try {
             const uint64_t phase = clock % job->pace;
             set_clock(*s->top, 0);
             set_reset(*s->top, clock == job->reset_at);
-            set_phase(*s->top, phase);
+            set_phase(*s->top, (phase + job->take) % job->pace);
             if (!offer && next < job->rows && !(job->in_gap && random.chance(job->in_gap))) {
                 drive(*s->top, job->in, next);
                 offer = true;

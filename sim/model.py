@@ -210,6 +210,7 @@ class _Job(ctypes.Structure):
         ("mutant", ctypes.c_uint64),
         ("latency", ctypes.c_uint64),
         ("pace", ctypes.c_uint64),
+        ("take", ctypes.c_uint64),
         ("drain", ctypes.c_uint64),
         ("patience", ctypes.c_uint64),
         ("waves", ctypes.c_char_p),
@@ -369,7 +370,8 @@ class Model:
         or, lowest bits first, ``n_i=(x, y, z)`` or an array (rows, fields), or a number for all fields.
         ``in_gap``, ``out_stall``: probability of a clock without an offer, of one without a consumer, where the module
         has a clock, a ready input. ``latency``: of a module without ``valid_o``, by default the contract's LATENCY_*.
-        ``pace``: clocks a row of a module with ``phase_i``, which counts 0 to ``pace`` - 1; a row is taken in phase 0.
+        ``pace``: clocks a row of a module with ``phase_i``, which counts 0 to ``pace`` - 1; a row is taken in the phase
+        that its parameter TAKE tells, by default 0.
         ``seed``: of gaps and stalls, and of the contents of registers without reset, unless ``state`` is given.
         ``reset_at``: in that clock the module is reset amid its traffic; then registers are written and all rows come
         again, and what is returned is what followed. The run ends ``drain`` clocks after the last transfer. Where the
@@ -396,7 +398,8 @@ class Model:
         job = _Job(
             rows, ctypes.cast(pointers, ctypes.c_void_p), int(in_gap * 65536), int(out_stall * 65536), seed,
             seed if state is None else state, NEVER if reset_at is None else reset_at, self.most, self.mutant,
-            latency, pace, drain, patience, str(waves).encode(), accesses.ctypes.data, len(writes), len(reads),
+            latency, pace, self.parameters.get("TAKE", 0), drain, patience, str(waves).encode(), accesses.ctypes.data,
+            len(writes), len(reads),
         )  # fmt: skip
         session = ctypes.c_void_p()
         stopped = self._library.model_run(ctypes.byref(job), ctypes.byref(session))

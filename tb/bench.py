@@ -179,7 +179,7 @@ class Bench:
         rest throughout. ``gap``: probability of a clock without a row, with random bits at the inputs; ``reset``: of a
         clock in reset, which loses what is in the pipeline. ``late``: inputs that are taken so many clocks after the
         others. ``pace``: clocks a row, where it is more than one: the module takes a row when ``ready_o``, or when
-        ``phase_i``, which counts its clocks, is 0. ``valid_i``, ``valid_o``, ``rst_i`` are served if there.
+        ``phase_i``, which counts its clocks, is TAKE, or 0. ``valid_i``, ``valid_o``, ``rst_i`` are served if there.
         """
         dut, late = self.dut, late or {}
         entries, exits = self.columns(inputs), self.columns(outputs)
@@ -191,6 +191,7 @@ class Bench:
         for column in settings:
             column.port.value = column.rows[0]
 
+        take_at = self.parameter("TAKE") if hasattr(dut, "TAKE") else 0
         waiting = deque(range(total))
         taken: list[int | None] = [None] * (latency + 1 + max(late.values(), default=0))  # the row of every clock
         clocks, since, offered = 0, pace, 0  # since the last row was taken; in which the next one has been offered
@@ -206,7 +207,7 @@ class Bench:
             if resettable:
                 dut.rst_i.value = in_reset
             if phased:
-                dut.phase_i.value = phase
+                dut.phase_i.value = (phase + take_at) % pace
             await self.tick()
             clocks += 1
             since += 1

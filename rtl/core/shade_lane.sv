@@ -90,39 +90,17 @@ module shade_lane #(
     dark_q   <= !rst_i && (pixels ? pixel : lined);
   end
   shade_pkg::intensity_t light;
-  if (FOLD == 1) begin : g_light
-    shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
-      .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1),
-      .k2_i(draw_i.material.k2), .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax),
-      .power_i(draw_i.material.power), .inv_n_i(draw_i.material.inv_n), .inv_n_exp_i(draw_i.material.inv_n_exp),
-      .gain_i(draw_i.material.gain), .gain_exp_i(draw_i.material.gain_exp), .lx_i(draw_i.light.l.x),
-      .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x), .hy_i(draw_i.light.h.y),
-      .hz_i(draw_i.light.h.z), .vh_i(draw_i.light.vh), .valid_i(dark_q), .nx_i(normal_q.x), .ny_i(normal_q.y),
-      .nz_i(normal_q.z), .valid_o(lit_o), .diffuse_o(light.diffuse), .specular_o(light.specular), .flags_o(flags_o.light)
-    );
-    localparam int LATENCY = shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
-    shade_ring #(.WIDTH(2), .DEPTH(LATENCY)) u_fault (
-      .clk_i, .rst_i, .d_i(fault_q), .q_o({flags_o.normal_short, flags_o.normal_zero})
-    );
-  end else begin : g_folded
-    // the normal comes LATENCY_UNIT_FOLDED + 1 clocks behind a phase 0 and waits for the next one
-    localparam int WAIT = FOLD - (shade_pkg::LATENCY_UNIT_FOLDED + 1) % FOLD;
-    logic valid;
-    shade_pkg::vec_t n;
-    shade_delay #(.WIDTH($bits(n)), .DEPTH(WAIT)) u_wait (.clk_i, .d_i(normal_q), .q_o(n));
-    shade_valid #(.DEPTH(WAIT)) u_valid (.clk_i, .rst_i, .valid_i(dark_q), .valid_o(valid));
-    shade_light_folded #(.FORM(FORM)) u_light (
-      .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1),
-      .k2_i(draw_i.material.k2), .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax),
-      .power_i(draw_i.material.power), .gain_i(draw_i.material.gain), .gain_exp_i(draw_i.material.gain_exp),
-      .lx_i(draw_i.light.l.x), .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x),
-      .hy_i(draw_i.light.h.y), .hz_i(draw_i.light.h.z), .valid_i(valid), .ready_o(), .nx_i(n.x), .ny_i(n.y), .nz_i(n.z),
-      .valid_o(lit_o), .diffuse_o(light.diffuse), .specular_o(light.specular), .flags_o(flags_o.light)
-    );
-    shade_ring #(.WIDTH(2), .DEPTH(WAIT + shade_pkg::LATENCY_LIGHT_FOLDED)) u_fault (
-      .clk_i, .rst_i, .d_i(fault_q), .q_o({flags_o.normal_short, flags_o.normal_zero})
-    );
-  end
+  // folded, the light takes a normal when it comes
+  localparam int TAKE = FOLD == 1 ? 0 : (shade_pkg::LATENCY_UNIT_FOLDED + 1) % FOLD;
+  localparam int LIGHT = FOLD == 1 ? shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT)
+                                   : shade_pkg::LATENCY_LIGHT_FOLDED;
+  shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .FOLD(FOLD), .TAKE(TAKE)) u_light (
+    .clk_i, .rst_i, .phase_i, .material_i(draw_i.material), .light_i(draw_i.light), .valid_i(dark_q), .n_i(normal_q),
+    .valid_o(lit_o), .light_o(light), .flags_o(flags_o.light)
+  );
+  shade_ring #(.WIDTH(2), .DEPTH(LIGHT)) u_fault (
+    .clk_i, .rst_i, .d_i(fault_q), .q_o({flags_o.normal_short, flags_o.normal_zero})
+  );
 
   logic complete, waiting, record_ready;
   shade_pkg::record_t record, next;

@@ -28,17 +28,15 @@ module shade_paint #(
   shade_pkg::drawn_t plain;
   shade_pkg::painted_t next;
   shade_pkg::coloured_t colour;
+  shade_pkg::intensity_t light;
   assign take = valid_i && ready_o;
   shade_credit #(.LOG2(FIFO_LOG2)) u_credit (
     .clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(ready_o), .soon_o(unused_soon)
   );
-  shade_colour u_colour (
-    .clk_i, .rst_i, .valid_i(take), .diffuse_i(W'(drawn_i.pixel.diffuse)), .specular_i(W'(drawn_i.pixel.specular)),
-    .ambient_r_i(draw_i.colour.ambient.r), .ambient_g_i(draw_i.colour.ambient.g), .ambient_b_i(draw_i.colour.ambient.b),
-    .kd_r_i(draw_i.colour.kd.r), .kd_g_i(draw_i.colour.kd.g), .kd_b_i(draw_i.colour.kd.b),
-    .ks_r_i(draw_i.colour.ks.r), .ks_g_i(draw_i.colour.ks.g), .ks_b_i(draw_i.colour.ks.b),
-    .valid_o(coloured), .r_o(colour.red), .g_o(colour.green), .b_o(colour.blue)
-  );
+  assign light.diffuse  = W'(drawn_i.pixel.diffuse);
+  assign light.specular = W'(drawn_i.pixel.specular);
+  shade_colour u_colour (.clk_i, .light_i(light), .colour_i(draw_i.colour), .pixel_o(colour));
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_COLOUR)) u_valid (.clk_i, .rst_i, .valid_i(take), .valid_o(coloured));
   shade_delay #(.WIDTH($bits(plain)), .DEPTH(shade_pkg::LATENCY_COLOUR)) u_plain (
     .clk_i, .d_i(drawn_i), .q_o(plain)
   );

@@ -12,11 +12,8 @@
 // Example: F0 = 0.04, c = 1/2 -> F = 0.04 + 0.96 / 32 = 0.07.
 module shade_fresnel (
   input  logic                            clk_i,
-  input  logic                            rst_i,
-  input  logic                            valid_i,
   input  logic [shade_pkg::INTENSITY_F:0] c_i,
   input  logic [shade_pkg::INTENSITY_F:0] f0_i,
-  output logic                            valid_o,
   output logic [shade_pkg::INTENSITY_F:0] f_o
 );
   localparam int F = shade_pkg::INTENSITY_F;
@@ -38,7 +35,7 @@ module shade_fresnel (
   logic [POWER_F:0] uu;  // rounded
   logic [POWER_F-1:0] uu_q4;
   shade_square #(.WIDTH(F + 2)) u_uu (.clk_i, .x_i($signed({1'b0, u_q1})), .y_o(uu_q3));
-  assign uu = uu_q3[DROP2+:POWER_F+1] + (POWER_F + 1)'(uu_q3[DROP2-1]);
+  assign uu = (POWER_F + 1)'(uu_q3 >> DROP2) + (POWER_F + 1)'(uu_q3[DROP2-1]);
   always_ff @(posedge clk_i) uu_q4 <= uu[POWER_F-1:0] | {POWER_F{uu[POWER_F]}};
 
   // u^4 = (u^2 - 1/2)^2 + u^2 - 1/4
@@ -51,7 +48,7 @@ module shade_fresnel (
   always_ff @(posedge clk_i) begin
     uu_q5 <= {1'b0, uu_q4} - ((POWER_F + 1)'(1) << (POWER_F - 2));
     uu_q6 <= uu_q5;
-    u4_q7 <= u4[POWER_F+:POWER_F];
+    u4_q7 <= POWER_F'(u4 >>> POWER_F);
   end
 
   // u^5 = u (u^4 - 1/2) + u/2
@@ -62,7 +59,7 @@ module shade_fresnel (
     .clk_i, .a_i($signed({1'b0, u_q7})), .b_i({~u4_q7[POWER_F-1], u4_q7[POWER_F-2:0]}), .p_o(product_q9)
   );
   assign u5 = product_q9 + $signed({2'b00, u_q9, 1'b0, 1'b1, {(F - 1) {1'b0}}});
-  always_ff @(posedge clk_i) u5_q10 <= u5[F+:POWER_F];
+  always_ff @(posedge clk_i) u5_q10 <= POWER_F'(u5 >>> F);
 
   // F = (1 - F0) (u^5 - 1/2) + (1 + F0)/2; half an ulp makes it (1 + ulp + F0)/2
   logic [F:0] rest_q10, f0_q10;
@@ -77,10 +74,7 @@ module shade_fresnel (
     f0_q10   <= f0_q9;
     half_q11 <= {1'b0, f0_q10} + {1'b0, ONE | (F + 1)'(1)};
     half_q12 <= half_q11;
-    f_o      <= sum[POWER_F+:F+1];
+    f_o      <= (F + 1)'(sum >>> POWER_F);
   end
 
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_FRESNEL)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
-  logic unused;
-  assign unused = &{1'b0, uu_q3, u4, u5, sum};
 endmodule

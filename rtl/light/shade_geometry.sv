@@ -6,36 +6,26 @@
 //   Cook-Torrance   min(1, 2 N.H N.L / V.H, 2 N.H N.V / V.H) / ((N.L) (N.V)) = num / den, with large = max(N.L, N.V) and
 //                   small = min(..): 2 N.H / (large V.H) where 2 N.H small < V.H (masked), else 1 / (large small)
 //   Ward            1 / sqrt(large small)
-//   others, den = 0 (zero_o)   0
+//   others, den = 0 (factor_o.zero)   0
 //
-//   x_i              d.ffff f          U2.20, the versine of N and H: N.H = 1 - x rounded to U1.16, not below 0
+//   angles_i.x       d.ffff f          U2.20, the versine of N and H: N.H = 1 - x rounded to U1.16, not below 0
 //   den                                exact (x = 2 counts as 2 - 2^-20): U2.32, of Schlick U16.20; 36 bits
 //   1/sqrt(den)                        (1 + d) 2^-.. by shade_rsqrt, d S0.18; its square is 1/den, doubled if below 1/2
-//   num_o            d.ffff            U1.16: 1, N.L, r or N.H; r rounded to nearest
-//   w_o, e_o        s0.ffff ff         S0.18 in [-1/2, 0], -15 .. 33; 1 + w within 2^-16 (relative)
+//   factor_o.num     d.ffff            U1.16: 1, N.L, r or N.H; r rounded to nearest
+//   factor_o.w, .e  s0.ffff ff         S0.18 in [-1/2, 0], -15 .. 33; 1 + w within 2^-16 (relative)
 //
 // num (1 + w) within 1.8 ulp of num (2^-16) of g 2^-e from the inputs as they are.
 //
-// Five 18 x 18 multipliers, two of them in shade_rsqrt. model_i .. inv_n_exp_i must not change while values are inside.
+// Five 18 x 18 multipliers, two of them in shade_rsqrt. material_i must not change while values are inside.
 // Latency LATENCY_GEOMETRY = 22 clocks, one value a clock. Source: P1, Cook-Torrance and Ward; Schlick's lobe.
 // Example: Ward, N.L = 1/4, N.V = 1 -> den = 1/4, num = 1, w = 0, e = 1.
 module shade_geometry (
-  input  logic                                      clk_i,
-  input  logic                                      rst_i,
-  input  logic                                      valid_i,
-  input  logic        [     shade_pkg::MODEL_W-1:0] model_i,      // MODEL_*
-  input  logic                                      cosine_i,
-  input  logic        [   shade_pkg::INTENSITY_F:0] inv_n_i,      // U1.16 in (1/2, 1]
-  input  logic        [   shade_pkg::INV_EXP_W-1:0] inv_n_exp_i,
-  input  logic        [   shade_pkg::VERSINE_W-1:0] x_i,
-  input  logic        [   shade_pkg::INTENSITY_F:0] nl_i,         // U1.16, as nv_i and vh_i
-  input  logic        [   shade_pkg::INTENSITY_F:0] nv_i,
-  input  logic        [   shade_pkg::INTENSITY_F:0] vh_i,
-  output logic                                      valid_o,
-  output logic        [   shade_pkg::INTENSITY_F:0] num_o,
-  output logic signed [    shade_pkg::FACTOR_F-1:0] w_o,
-  output logic signed [shade_pkg::FACTOR_EXP_W-1:0] e_o,
-  output logic                                      zero_o
+  input  logic                            clk_i,
+  input  logic                            rst_i,
+  input  shade_pkg::material_t            material_i,
+  input  shade_pkg::angles_t              angles_i,
+  input  logic [shade_pkg::INTENSITY_F:0] vh_i,       // U1.16
+  output shade_pkg::factor_t              factor_o
 );
   localparam int F = shade_pkg::INTENSITY_F;
   localparam int C_W = F + 1;
@@ -49,12 +39,14 @@ module shade_geometry (
   localparam int ROOT = shade_pkg::LATENCY_RSQRT;
   localparam logic [C_W-1:0] ONE = C_W'(1) << F;
 
+  logic [X_W-1:0] x;
+  assign x = angles_i.x;
   logic schlick, cook, ward, plain, divides;
-  assign schlick = model_i == shade_pkg::MODEL_W'(shade_pkg::MODEL_SCHLICK);
-  assign cook    = model_i == shade_pkg::MODEL_W'(shade_pkg::MODEL_COOK_TORRANCE);
-  assign ward    = model_i == shade_pkg::MODEL_W'(shade_pkg::MODEL_WARD);
-  assign plain   = model_i == shade_pkg::MODEL_W'(shade_pkg::MODEL_PHONG)
-                || model_i == shade_pkg::MODEL_W'(shade_pkg::MODEL_BLINN);
+  assign schlick = material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_SCHLICK);
+  assign cook    = material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_COOK_TORRANCE);
+  assign ward    = material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_WARD);
+  assign plain   = material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_PHONG)
+                || material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_BLINN);
   assign divides = schlick || cook || ward;
 
   // ---- N.H; the product that decides on masking, or r ------------------------------------------------------------
@@ -65,12 +57,12 @@ module shade_geometry (
   logic [C_W-1:0] lead_q1, lead_q3, other_q1, other_q3, large_q1, large_q4, vh_q3, r_q4, r_q6, num_q4, num_q21, right_q4;
   logic [2*C_W+1:0] product_q3, den_q6;
   logic masked, masked_q4, masked_q17;
-  assign complement = ONE_AND_HALF_ULP - (X_W + 1)'({1'b0, x_i});
-  assign descending = nl_i > nv_i;
+  assign complement = ONE_AND_HALF_ULP - (X_W + 1)'({1'b0, x});
+  assign descending = angles_i.nl > angles_i.nv;
   always_ff @(posedge clk_i) begin
-    lead_q1  <= plain ? nl_i : complement[X_W] ? '0 : complement[X_F-F+:C_W];
-    large_q1 <= descending ? nl_i : nv_i;
-    other_q1 <= schlick ? inv_n_i : descending ? nv_i : nl_i;
+    lead_q1  <= plain ? angles_i.nl : complement[X_W] ? '0 : C_W'(complement >>> (X_F - F));
+    large_q1 <= descending ? angles_i.nl : angles_i.nv;
+    other_q1 <= schlick ? material_i.inv_n : descending ? angles_i.nv : angles_i.nl;
   end
   shade_mul #(.A_W(C_W + 1), .B_W(C_W + 1)) u_product (
     .clk_i, .a_i({1'b0, lead_q1}), .b_i({1'b0, other_q1}), .p_o(product_q3)
@@ -80,12 +72,12 @@ module shade_geometry (
   );
   shade_delay #(.WIDTH(C_W), .DEPTH(1 + MUL)) u_vh (.clk_i, .d_i(vh_i), .q_o(vh_q3));
   shade_delay #(.WIDTH(C_W), .DEPTH(MUL + 1)) u_large (.clk_i, .d_i(large_q1), .q_o(large_q4));
-  assign masked = cook && other_q3 != '0 && product_q3[F-1+:C_W+1] < {1'b0, vh_q3};  // 0 < small, 2 N.H small < V.H
+  assign masked = cook && other_q3 != '0 && (C_W + 1)'(product_q3 >> (F - 1)) < {1'b0, vh_q3};  // 0 < small, 2 N.H small < V.H
   always_ff @(posedge clk_i) begin
     masked_q4 <= masked;
     right_q4  <= masked ? vh_q3 : other_q3;
-    r_q4      <= product_q3[F+:C_W] + C_W'(product_q3[F-1]);
-    num_q4    <= masked || (plain && cosine_i) ? lead_q3 : plain || divides ? ONE : '0;
+    r_q4      <= C_W'(product_q3 >> F) + C_W'(product_q3[F-1]);
+    num_q4    <= masked || (plain && material_i.cosine) ? lead_q3 : plain || divides ? ONE : '0;
   end
 
   // ---- the denominator and its root ------------------------------------------------------------------------------
@@ -94,21 +86,21 @@ module shade_geometry (
   logic [Y_W-1:0] y_q17;
   logic [4:0] e_q17;
   logic zero_q17;
+  logic [1:0] fours, ones;
+  assign {fours, ones} = material_i.inv_n_exp;
   shade_mul #(.A_W(C_W + 1), .B_W(C_W + 1)) u_den (
     .clk_i, .a_i({1'b0, large_q4}), .b_i({1'b0, right_q4}), .p_o(den_q6)
   );
   shade_delay #(.WIDTH(X_W - 1), .DEPTH(1 + MUL + 1)) u_x (
-    .clk_i, .d_i(x_i[X_W-2:0] | {(X_W - 1) {x_i[X_W-1]}}), .q_o(x_q4)
+    .clk_i, .d_i(x[X_W-2:0] | {(X_W - 1) {x[X_W-1]}}), .q_o(x_q4)
   );
   shade_delay #(.WIDTH(C_W), .DEPTH(MUL)) u_r (.clk_i, .d_i(r_q4), .q_o(r_q6));
   always_ff @(posedge clk_i) begin
-    x_q5 <= Z_W'(x_q4) << {inv_n_exp_i[3:2], 2'b00};
-    x_q6 <= x_q5 << inv_n_exp_i[1:0];
+    x_q5 <= Z_W'(x_q4) << {fours, 2'b00};
+    x_q6 <= x_q5 << ones;
     z_q7 <= schlick ? x_q6 + (Z_W'(r_q6) << (X_F - F)) : Z_W'(den_q6);
   end
-  shade_rsqrt u_rsqrt (
-    .clk_i, .z_i(z_q7), .y_o(y_q17), .e_o(e_q17), .zero_o(zero_q17)
-  );
+  shade_rsqrt u_rsqrt (.clk_i, .z_i(z_q7), .y_o(y_q17), .e_o(e_q17), .zero_o(zero_q17));
 
   // ---- 1 + w: the root, or its square, doubled where it is below 1/2 ---------------------------------------------
   localparam int S_W = 2 * W_F + 1;
@@ -134,14 +126,14 @@ module shade_geometry (
   assign doubled = twice ? {1'b1, square_q21[S_W-3:0], 1'b0} : square_q21;  // 2 (1 + d)^2 - 1
   shade_round #(.WIDTH(S_W), .DROP(W_F), .OUT_W(W_F)) u_w (.x_i(doubled), .y_o(w));
   always_ff @(posedge clk_i) begin
-    d_q18      <= divides ? d : '0;
-    e_q18      <= divides ? base - (ward ? E_W'({1'b0, e_q17}) : E_W'({e_q17, 1'b0})) : '0;
-    square_q21 <= ward ? S_W'(d_q20) <<< W_F : (S_W'(d_q20) <<< (W_F + 1)) + S_W'({2'b00, dd_q20});
-    w_o        <= w;
-    e_o        <= e_q21 - E_W'({1'b0, twice});
-    num_o      <= zero_q21 ? '0 : num_q21;
-    zero_o     <= zero_q21;
+    d_q18         <= divides ? d : '0;
+    e_q18         <= divides ? base - (ward ? E_W'({1'b0, e_q17}) : E_W'({e_q17, 1'b0})) : '0;
+    square_q21    <= ward ? S_W'(d_q20) <<< W_F : (S_W'(d_q20) <<< (W_F + 1)) + S_W'({2'b00, dd_q20});
+    factor_o.w    <= w;
+    factor_o.e    <= e_q21 - E_W'({1'b0, twice});
+    factor_o.num  <= zero_q21 ? '0 : num_q21;
+    factor_o.zero <= zero_q21;
   end
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_GEOMETRY)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
+  logic unused;
+  assign unused = &{1'b0, material_i, angles_i};
 endmodule

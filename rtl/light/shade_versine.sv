@@ -4,7 +4,7 @@
 //   FORM_REFINED  x = |a - b|^2 / 2     the chord: an error of the vectors' lengths enters squared or times x
 //   FORM_PAPER    x = 1 - a . b         it enters in full, and a shininess n multiplies it
 //
-//   ax_i .. bz_i   sd.ffff              S1.16
+//   a_i, b_i       sd.ffff              S1.16
 //   a - b         sdd.ffff              saturated to S1.16 (beyond 2 only for vectors longer than 1)
 //   products       36 bits, exact       three 18 x 18 multipliers, squares of the differences or a_i b_i
 //   x_o             d.ffff f            U2.20, rounded once, to nearest, ties up, and clamped to [0, 2]: error 1/2 ulp
@@ -16,18 +16,11 @@
 module shade_versine #(
   parameter int FORM = shade_pkg::FORM_REFINED
 ) (
-  input  logic                                     clk_i,
-  input  logic                                     rst_i,
-  input  logic                                     valid_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] ax_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] ay_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] az_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] bx_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] by_i,
-  input  logic signed [shade_pkg::INTENSITY_W-1:0] bz_i,
-  output logic                                     valid_o,
-  output logic        [  shade_pkg::VERSINE_W-1:0] x_o,
-  output logic                                     range_o
+  input  logic                            clk_i,
+  input  shade_pkg::vec_t                 a_i,
+  input  shade_pkg::vec_t                 b_i,
+  output logic [shade_pkg::VERSINE_W-1:0] x_o,
+  output logic                            range_o
 );
   if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check
     $error("shade_versine: FORM must be FORM_PAPER or FORM_REFINED");
@@ -38,28 +31,25 @@ module shade_versine #(
   localparam int P_F = 2 * shade_pkg::INTENSITY_F;
   localparam int P_W = 2 * W;
 
-  logic [3*W-1:0] a, b;
-  logic [3*P_W-1:0] product_q3;
-  assign a = {az_i, ay_i, ax_i};
-  assign b = {bz_i, by_i, bx_i};
+  logic [2:0][W-1:0] a, b;
+  logic [2:0][P_W-1:0] product_q3;
+  assign {a, b} = {a_i, b_i};
   for (genvar c = 0; c < 3; c++) begin : g_component
     logic signed [W-1:0] left_q1, right_q1;
     if (REFINED) begin : g_chord
       logic signed [W:0] difference;
       logic signed [W-1:0] limited;
-      assign difference = (W + 1)'($signed(a[c*W+:W])) - (W + 1)'($signed(b[c*W+:W]));
+      assign difference = (W + 1)'($signed(a[c])) - (W + 1)'($signed(b[c]));
       shade_limit #(.WIDTH(W + 1), .OUT_W(W)) u_limit (.x_i(difference), .y_o(limited));
       always_ff @(posedge clk_i) left_q1 <= limited;
       assign right_q1 = left_q1;
     end else begin : g_dot
       always_ff @(posedge clk_i) begin
-        left_q1  <= a[c*W+:W];
-        right_q1 <= b[c*W+:W];
+        left_q1  <= a[c];
+        right_q1 <= b[c];
       end
     end
-    shade_mul #(.A_W(W), .B_W(W)) u_mul (
-      .clk_i, .a_i(left_q1), .b_i(right_q1), .p_o(product_q3[c*P_W+:P_W])
-    );
+    shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(left_q1), .b_i(right_q1), .p_o(product_q3[c]));
   end
 
   // the sum, or 1 less the sum; the refined one is taken as half as large by counting a fraction bit more
@@ -72,9 +62,9 @@ module shade_versine #(
   logic signed [X_W-1:0] x_q5;
   logic [shade_pkg::VERSINE_W-1:0] clamped;
   logic outside;
-  assign x   = SUM_W'($signed(product_q3[0+:P_W]));
-  assign y   = SUM_W'($signed(product_q3[P_W+:P_W]));
-  assign z   = SUM_W'($signed(product_q3[2*P_W+:P_W]));
+  assign x   = SUM_W'($signed(product_q3[0]));
+  assign y   = SUM_W'($signed(product_q3[1]));
+  assign z   = SUM_W'($signed(product_q3[2]));
   assign sum = REFINED ? z_q4 + xy_q4 : z_q4 - xy_q4;
   shade_clamp #(.WIDTH(X_W), .F(shade_pkg::VERSINE_F + 1)) u_clamp (.x_i(x_q5), .y_o(clamped), .clamped_o(outside));
   always_ff @(posedge clk_i) begin
@@ -84,6 +74,4 @@ module shade_versine #(
     x_o     <= clamped;
     range_o <= outside;
   end
-
-  shade_valid #(.DEPTH(shade_pkg::LATENCY_VERSINE)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

@@ -78,7 +78,7 @@ def mentions(root: Path, name: str, text: str) -> Iterator[str]:
 def header(name: str, text: str) -> Iterator[str]:
     """Modules named in the comments of a source that do not exist."""
     technology = {path.stem for path in (ROOT / "rtl" / "tech").rglob("*.sv")}
-    known = {*modules(), *yardsticks(), *technology, "shade_pkg"}
+    known = {*modules(), *yardsticks(), *technology, "shade_pkg", "shade_lobe_pkg"}
     comments = "\n".join(re.findall(r"//(.*)$", text, re.MULTILINE))
     for module in MODULE.findall(comments):
         if module not in known:

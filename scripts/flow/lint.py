@@ -47,7 +47,7 @@ LICENCE = "SPDX-License-Identifier: Apache-2.0"
 CATALOGUE = RTL / "README.md"
 # They hand data on unaltered, or count: there is nothing to model.
 CARRIERS = {
-    *("shade_delay", "shade_ring", "shade_hold", "shade_valid"),
+    *("shade_delay", "shade_ring", "shade_hold", "shade_wait", "shade_valid"),
     *("shade_fifo", "shade_credit", "shade_assert", "shade_stable"),
     *("shade_door", "shade_tally", "shade_pixel_points"),
 }

@@ -9,6 +9,7 @@ from itertools import product
 from polyshade.sim.sources import Point
 
 SMALL: Point = {"REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}  # a core with Lambert and Blinn, by polynomials
+TWO: Point = {"REFLECT": 0, "DIVIDE": 0}  # Lambert and Blinn
 FOLDED: Point = {"FOLD": 6, **SMALL}
 
 
@@ -70,15 +71,18 @@ POINTS: dict[str, list[Point]] = {
     "shade_versine": [{"FORM": 0}],
     "shade_hold": [{"DEPTH": 2}, {"WIDTH": 18, "DEPTH": 41}, {"FOLD": 1}],
     "shade_lobe": [*grid(POWER=[2, 3, 4], FOLD=[1, 6]), *grid(FOLD=[2, 3, 4, 5, 7, 8], TAKE=[1])],
-    "shade_angles": [*grid(REFLECT=[0, 1], LOCAL=[0, 1]), {"FORM": 0}],
-    "shade_reflectance": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1], LOCAL=[0, 1]), {"FORM": 0}],
-    "shade_light": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
+    "shade_lobe_folded": [*grid(FOLD=[2, 3, 4, 5, 7, 8], TAKE=[1]), {"POWER": 2}],
+    "shade_wait": [{"FOLD": 1}, {"FOLD": 2, "DEPTH": 32, "WIDTH": 20}, {"DEPTH": 1}],
+    "shade_gain": grid(FOLD=[2, 3, 4, 5, 6, 7, 8], TAKE=[1]),
+    "shade_angles_folded": grid(FOLD=[2, 3, 4, 5, 7, 8], FORM=[0, 1], TAKE=[1]),
+    "shade_angles": [*grid(REFLECT=[0, 1], LOCAL=[0, 1]), {"FORM": 0}, {"REFLECT": 0, "FOLD": 6}],
+    "shade_reflectance": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1], LOCAL=[0, 1]), {"FORM": 0}, {**TWO, "FOLD": 6}],
+    "shade_light": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}, *({**TWO, "FOLD": n} for n in range(2, 9))],
     "shade_light_local": [*grid(REFLECT=[0, 1], DIVIDE=[0, 1]), {"FORM": 0}],
     "shade_paint": [{"FIFO_LOG2": 4}],
     "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}, {"FORM": 0}],
     "shade_kappa": grid(FOLD=[6, 2, 3, 4, 5, 7, 8]),
     "shade_planner": grid(FOLD=[6, 3]),
-    "shade_light_folded": [{"FORM": 0}],
     "shade_raster": [{"CREDIT_LOG2": 5}],
     "shade_depth": [{"LOG2": 2}],
     "shade_frame": [{"COLUMNS_LOG2": 4, "LINES_LOG2": 3, "DOUBLE": 1}],
@@ -128,8 +132,13 @@ REFUSED: dict[str, list[Point]] = {
     "shade_versine": [{"FORM": 2}],
     "shade_hold": [{"WIDTH": 0}, {"DEPTH": -1}, {"FOLD": 0}],
     "shade_lobe": [{"POWER": 1}, {"POWER": 5}, {"FOLD": 0}, {"FOLD": 9}, {"FOLD": 6, "TAKE": 6}],
-    "shade_angles": [{"REFLECT": 2}, {"LOCAL": -1}],
-    "shade_reflectance": [{"DIVIDE": 2}],
+    "shade_lobe_folded": [{"POWER": 1}, {"FOLD": 1}, {"TAKE": 6}],
+    "shade_wait": [{"WIDTH": 0}, {"DEPTH": 0}, {"FOLD": 0}],
+    "shade_gain": [{"FOLD": 9}, {"FOLD": 2, "TAKE": 2}],
+    "shade_angles_folded": [{"FOLD": 1}, {"TAKE": 6}],
+    "shade_angles": [{"REFLECT": 2}, {"LOCAL": -1}, {"FOLD": 6}, {"FOLD": 6, "REFLECT": 0, "TAKE": 6}],
+    "shade_reflectance": [{"DIVIDE": 2}, {"FOLD": 6, "REFLECT": 0}],
+    "shade_light": [{"FOLD": 6}, {"FOLD": 9, **TWO}],
     "shade_kappa": [{"FOLD": 9}],
     "shade_planner": [{"FOLD": 9}],
     "shade_line": [{"FOLD": 0}],
@@ -154,7 +163,7 @@ VARIANTS: dict[str, list[Point]] = {
     "shade_unit": [{"FOLD": 6}],
     "shade_versine": [{"FORM": 0}],
     "shade_lobe": [{"FOLD": 6}, {"POWER": 3}, {"POWER": 2}],
-    "shade_light": [{"REFLECT": 0, "DIVIDE": 0}],
+    "shade_light": [TWO, {"FOLD": 6, **TWO}],
     "shade_phong": [{"REFLECT": 0, "DIVIDE": 0}],
     "shade_core": [SMALL, FOLDED, {"COLOUR": 1}, {"LANES": 4, **SMALL}],
     "yardstick_beckmann": [{"WARD": 1}],

@@ -148,7 +148,7 @@ class Case:
         if not self.late:
             return inputs
         most = max(self.late.values())
-        shifts = {name: self.late.get(name, 0) for name in inputs}
+        shifts = {name: self.late.get(name.partition(".")[0], 0) for name in inputs}
         return {
             name: np.r_[np.repeat(value[:1], shifts[name]), value, np.repeat(value[-1:], most - shifts[name])]
             for name, value in inputs.items()

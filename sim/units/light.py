@@ -4,15 +4,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import light, material
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, every, in_forms, mixed, signed_range
-from polyshade.sim.units.normal import ends
+from polyshade.sim.units.normal import arcs
 
 LIMITS = signed_range(k.INTENSITY_W)
+FEW = 6_250  # vectors of a run, of which each has settings of its own
+
+
+def directions(names: str) -> Callable[[np.random.Generator, int], Arrays]:
+    """Two vectors of :func:`arcs` as ports: with "nl", n_i and l_i."""
+
+    def make(rng: np.random.Generator, rows: int) -> Arrays:
+        components = list(arcs(rng, rows).values())[:6]
+        return dict(zip((f"{name}_i.{c}" for name in names for c in "xyz"), components, strict=True))
+
+    return make
 
 
 def _two(i: Arrays) -> tuple[np.ndarray, np.ndarray]:
@@ -44,7 +56,7 @@ def _versine(form: str) -> Iterator[Case]:
         return values | {"x_o": np.where(unit & (x <= 1), np.ldexp(x, k.VERSINE_F), values["x_o"])}
 
     yield Case(
-        "shade_versine", form, {"FORM": FORMS[form]}, golden, exact, ideal, ends(), None, k.LATENCY_VERSINE,
+        "shade_versine", form, {"FORM": FORMS[form]}, golden, exact, ideal, directions("ab"), None, k.LATENCY_VERSINE,
         unit_f=k.VERSINE_F,
     )  # fmt: skip
 
@@ -55,21 +67,23 @@ def _directions(form: str) -> Iterator[Case]:
         return
 
     def reflected(i: Arrays) -> Arrays:
-        return dict(zip(("x_o", "y_o", "z_o"), light.reflect(*i.values()), strict=True))
+        return dict(zip(("r_o.x", "r_o.y", "r_o.z"), light.reflect(*i.values()), strict=True))
 
     def mirror(i: Arrays) -> Arrays:
         n, l = _two(i)  # noqa: E741
         twice = 2 * (n * l).sum(axis=0)
         r = (twice.clip(-LIMITS[1] / ONE, 2) * n - l) * ONE
-        return dict(zip(("x_o", "y_o", "z_o"), r.clip(*LIMITS), strict=True))
+        return dict(zip(("r_o.x", "r_o.y", "r_o.z"), r.clip(*LIMITS), strict=True))
 
     yield Case(
-        "shade_reflect", form, {}, reflected, mirror, mirror, ends("nl"), None, k.LATENCY_REFLECT,
+        "shade_reflect", form, {}, reflected, mirror, mirror, directions("nl"), None, k.LATENCY_REFLECT,
         bound=1.5,  # 1/2, and m's half ulp times a component of N: of a unit normal at most 1
     )  # fmt: skip
 
+    names = ("h_o.x", "h_o.y", "h_o.z", "vh_o")
+
     def golden(i: Arrays) -> Arrays:
-        return dict(zip(("hx_o", "hy_o", "hz_o", "vh_o", "zero_o"), light.halfway(*i.values()), strict=True))
+        return dict(zip(names, light.halfway(*i.values()), strict=True))
 
     def halfway(i: Arrays) -> Arrays:
         l, v = _two(i)  # noqa: E741
@@ -77,10 +91,10 @@ def _directions(form: str) -> Iterator[Case]:
         length = np.sqrt((s * s).sum(axis=0))
         h = s / np.where(length == 0, 1, length)
         values = (*(h * ONE), ((v * h).sum(axis=0) * ONE).clip(0, ONE))
-        return golden(i) | dict(zip(("hx_o", "hy_o", "hz_o", "vh_o"), values, strict=True))
+        return dict(zip(names, values, strict=True))
 
     yield Case(
-        "shade_halfway", form, {}, golden, halfway, halfway, ends("lv"), None, k.LATENCY_HALFWAY,
+        "shade_halfway", form, {}, golden, halfway, halfway, directions("lv"), None, k.LATENCY_HALFWAY,
         bound=4.25,  # 1/2, and H's 5/8 times the sum of V's components; of unit vectors at most 1.6
     )  # fmt: skip
 
@@ -133,7 +147,7 @@ def _lobe(form: str) -> Iterator[Case]:
 
     def inputs(x: np.ndarray, registers: tuple[int, ...]) -> Arrays:
         named = zip(light.LOBE, registers, strict=True)
-        return {"x_i": x} | {f"{name}_i": np.full_like(x, value) for name, value in named}
+        return {"x_i": x} | {f"lobe_i.{name}": np.full_like(x, value) for name, value in named}
 
     def some(rng: np.random.Generator, rows: int) -> np.ndarray:
         """Versines of every size, all the smallest ones, and around 1 and 2."""
@@ -143,7 +157,7 @@ def _lobe(form: str) -> Iterator[Case]:
 
     def case(stages: int, fold: int, note: str, vectors: Callable, more: Callable | None = None) -> Case:
         def registers(i: Arrays) -> tuple[int, ...]:
-            return tuple(int(i[f"{name}_i"][0]) for name in light.LOBE)
+            return tuple(int(i[f"lobe_i.{name}"][0]) for name in light.LOBE)
 
         def golden(i: Arrays) -> Arrays:
             return {"lobe_o": light.lobe(i["x_i"], *registers(i), stages)}
@@ -158,8 +172,9 @@ def _lobe(form: str) -> Iterator[Case]:
             x = np.ldexp(np.minimum(i["x_i"], one).astype(float), -k.VERSINE_F)
             return {"lobe_o": material.shape(model, x, n, m) * ONE}
 
+        point = {"POWER": stages, "FOLD": fold} | ({"TAKE": fold // 2} if fold > 1 else {})
         return Case(
-            "shade_lobe", form, {"POWER": stages, "FOLD": fold}, golden, exact, ideal if more is None else exact, more,
+            "shade_lobe", form, point, golden, exact, ideal if more is None else exact, more,
             vectors, lobe_latency(stages, fold), fold, chunk=1 << 12, note=note,
             bound=1.5,  # 1/2, and 2^power times what s, y and z lack near the peak
         )  # fmt: skip
@@ -173,6 +188,14 @@ def _lobe(form: str) -> Iterator[Case]:
                 yield inputs(make(rng), registers)
 
         return vectors
+
+    def wild(rng: np.random.Generator, rows: int) -> Arrays:
+        """Registers of any bits, as no material has them: only RTL and golden model are compared."""
+        low, high = signed_range(k.LOBE_K2_W)
+        k2 = int(np.clip(rng.normal(0, high / 2), low, high))
+        widths = {"k1": k.LOBE_K1_W, "shift": k.LOBE_SHIFT_W, "xmax": k.LOBE_X_F + 1, "power": k.LOBE_POWER_W}
+        words = {name: int(rng.integers(0, 1 << width)) for name, width in widths.items()} | {"k2": k2}
+        return inputs(some(rng, rows), tuple(words[name] for name in light.LOBE))
 
     def any_registers(rng: np.random.Generator, rows: int) -> Arrays:
         """k2 of no, either and the greatest amount; xmax at the vertex."""
@@ -191,8 +214,41 @@ def _lobe(form: str) -> Iterator[Case]:
     if form == "refined":
         yield case(4, 1, "every versine", of(4, 8, lambda rng: np.arange(most + 1)))
         yield case(4, 1, "any registers", None, any_registers)
-    for stages, fold in ((4, 1), (3, 1), (2, 1), *((4, fold) for fold in range(2, 9)), (3, 6), (2, 6), (3, 3), (2, 5)):
+        unmeasured = case(4, 1, "wild registers", None, wild)
+        yield replace(unmeasured, exact=unmeasured.golden, ideal=unmeasured.golden)
+    folds = (6, 2, 3, 4, 5, 7, 8)
+    for stages, fold in ((4, 1), *((4, fold) for fold in folds), (3, 1), (2, 1), (3, 6), (2, 6), (3, 3), (2, 5)):
         yield case(stages, fold, "", of(stages, 1, lambda rng, f=fold: some(rng, (1 << 15) // f)))
+
+
+def _lobe_folded(form: str) -> Iterator[Case]:
+    """The lobe behind its X: every X of few bits and random ones, registers of any kind."""
+    if form != "refined":
+        return
+    high = (2 << k.LOBE_SCALED_F) - 1
+    few = [name for name in light.LOBE if name not in ("xmax", "shift")]
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        x = rng.integers(0, high, rows, endpoint=True) >> rng.integers(0, 20, rows)
+        ranges = {"k1": (0, (1 << k.LOBE_K1_W) - 1), "k2": signed_range(k.LOBE_K2_W), "power": (0, 4)}
+        settings = {name: int(rng.integers(*limits, endpoint=True)) for name, limits in ranges.items()}
+        settings |= {"shift": int(rng.choice([0, 6, k.LOBE_FINE])), "xmax": 0}
+        named = {f"lobe_i.{name}": np.full(rows, settings[name]) for name in light.LOBE}
+        return {"x_i": x, "dark_i": rng.integers(0, 16, rows) // 15} | named
+
+    def arguments(i: Arrays) -> tuple[int, ...]:
+        k1, k2, power = (int(i[f"lobe_i.{name}"][0]) for name in few)
+        return k1, k2, int(i["lobe_i.shift"][0] == k.LOBE_FINE), power
+
+    for stages, fold in ((4, 6), *((4, fold) for fold in (2, 3, 4, 5, 7, 8)), (2, 5)):
+
+        def golden(i: Arrays, stages: int = stages) -> Arrays:
+            return {"lobe_o": light.lobe_scaled(i["x_i"], i["dark_i"], *arguments(i), stages)}
+
+        yield Case(
+            "shade_lobe_folded", form, {"POWER": stages, "FOLD": fold}, golden, golden, golden, vectors, None,
+            lobe_latency(stages, fold) - 2, fold, chunk=FEW,
+        )  # fmt: skip
 
 
 def _fresnel(form: str) -> Iterator[Case]:
@@ -220,22 +276,24 @@ def _colour(form: str) -> Iterator[Case]:
     """Weighted light of a pixel."""
     if form != "refined":
         return
-    names = [f"{name}_{c}_i" for name in ("ambient", "kd", "ks") for c in "rgb"]
+    names = [f"colour_i.{name}.{c}" for name in ("ambient", "kd", "ks") for c in "rgb"]
+    lit = ("light_i.diffuse", "light_i.specular")
+    pixel = ("pixel_o.red", "pixel_o.green", "pixel_o.blue")
 
     def terms(i: Arrays) -> list[np.ndarray]:
-        return [i["diffuse_i"], i["specular_i"], *np.stack([i[name] for name in names]).reshape(3, 3, -1)]
+        return [*(i[name] for name in lit), *np.stack([i[name] for name in names]).reshape(3, 3, -1)]
 
     def golden(i: Arrays) -> Arrays:
-        return dict(zip(("r_o", "g_o", "b_o"), light.colour(*terms(i)), strict=True))
+        return dict(zip(pixel, light.colour(*terms(i)), strict=True))
 
     def exact(i: Arrays) -> Arrays:
         diffuse, specular, *weights = terms(i)
         ambient, kd, ks = (weight.astype(Real) / ONE for weight in weights)
         sums = ambient * ONE + kd * diffuse.clip(0) + ks * specular.clip(0)
-        return dict(zip(("r_o", "g_o", "b_o"), sums.clip(0, ONE - 1), strict=True))
+        return dict(zip(pixel, sums.clip(0, ONE - 1), strict=True))
 
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
-        lights = mixed(dict.fromkeys(("diffuse_i", "specular_i"), LIMITS), ONE, -ONE)(rng, rows)
+        lights = mixed(dict.fromkeys(lit, LIMITS), ONE, -ONE)(rng, rows)
         weights = mixed(dict.fromkeys(names, (0, 2 * ONE - 1)), ONE)(rng, rows)
         darker = rng.integers(0, 4, rows)  # fewer sums that saturate
         return lights | {name: value >> darker for name, value in weights.items()}
@@ -245,4 +303,4 @@ def _colour(form: str) -> Iterator[Case]:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/light``."""
-    return in_forms(_versine, _directions, _lobe, _fresnel, _colour)
+    return in_forms(_versine, _directions, _lobe, _lobe_folded, _fresnel, _colour)

@@ -7,22 +7,22 @@ Settings hold for a run: each has a material of its own, so that half a million 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 from polyshade.golden import contract as k
-from polyshade.golden import light, material
+from polyshade.golden import light, material, normal
 from polyshade.golden.reference.light import ROWS
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, mixed, signed_range
-from polyshade.sim.units.light import exact_lobe
+from polyshade.sim.units.light import FEW, exact_lobe
 from polyshade.sim.units.normal import unit_vectors
 
 CHUNK = 25_000
-FEW = 6_250  # rows of a run where one case has all models
 CODES = range(1 << k.MODEL_W)  # reserved ones too
 NAMES = {code: name for name, code in material.MODELS.items()}
 LIMITS = signed_range(k.INTENSITY_W)
 COSINE = (0, ONE)
+TWO = {"REFLECT": 0, "DIVIDE": 0}  # Lambert and Blinn
+FOLDS = (6, *range(2, 6), 8, 7)  # the first and the last in the default run
 SAFE = ONE >> 4  # N.L and N.V from which on the ideal function is compared: both quotients grow without limit towards 0
 
 
@@ -46,34 +46,41 @@ def normals(rng: np.random.Generator, rows: int, *towards: np.ndarray) -> np.nda
     return np.select([kind == 0, kind == 1, kind < 8], [anything, aim, close], unit_vectors(rng, rows)).astype(np.int64)
 
 
-def pack(vector: np.ndarray) -> np.ndarray:
-    """x, y, z as one word, at bit 0, 18, 36."""
-    return sum((part & (1 << k.INTENSITY_W) - 1) << k.INTENSITY_W * i for i, part in enumerate(vector))
-
-
-def unpack(word: np.ndarray) -> np.ndarray:
-    """The vector (3, rows) of :func:`pack`."""
-    parts = np.stack([word >> k.INTENSITY_W * i for i in range(3)]) & (1 << k.INTENSITY_W) - 1
-    return parts - ((parts >> k.INTENSITY_W - 1) << k.INTENSITY_W)
-
-
 def ports(rows: int, **values) -> Arrays:
-    """Values by name as inputs of so many rows; vectors (3, rows) as three components."""
+    """Values by name as inputs of so many rows: numbers, vectors (3, rows), structures by the names of their fields."""
     named = {}
     for name, value in values.items():
-        parts = zip((name + c for c in "xyz"), value, strict=True) if np.ndim(value) > 1 else [(name, value)]
-        named |= {f"{part}_i": np.broadcast_to(v, rows) for part, v in parts}
+        parts = dict(zip("xyz", value, strict=True)) if np.ndim(value) > 1 else value
+        if isinstance(parts, dict):
+            named |= {f"{name}_i.{part}": np.broadcast_to(number, rows) for part, number in parts.items()}
+        else:
+            named[f"{name}_i"] = np.broadcast_to(value, rows)
     return named
 
 
-def words(i: Arrays, *names: str) -> dict[str, int]:
-    """Settings by name, those of the material and others: numbers."""
-    return {name: int(i[f"{name}_i"][0]) for name in (*light.MATERIAL, *names)}
+def leaf(name: str) -> str:
+    """Where a setting of the material stands in ``material_t``."""
+    return f"lobe.{name}" if name in light.LOBE else name
+
+
+def of_material(settings: dict[str, int]) -> dict[str, int]:
+    """The fields of ``material_t``; 0 for those that are not given."""
+    return {leaf(name): settings.get(name, 0) for name in (*light.MATERIAL, "f0")}
+
+
+def of_light(settings: dict[str, int]) -> dict[str, int]:
+    """The fields of ``light_t``."""
+    return {f"{v}.{c}": settings[v + c] for v in "lh" for c in "xyz"} | {"vh": settings["vh"]}
+
+
+def words(i: Arrays) -> dict[str, int]:
+    """The settings of the material by name: numbers."""
+    return {name: int(i[f"material_i.{leaf(name)}"][0]) for name in (*light.MATERIAL, "f0")}
 
 
 def vector(i: Arrays, name: str) -> np.ndarray:
-    """The vector (3, rows) of three ports, or of a packed one."""
-    return unpack(i[f"{name}_i"]) if f"{name}_i" in i else np.stack([i[f"{name}{c}_i"] for c in "xyz"])
+    """The vector (3, rows) of a port."""
+    return np.stack([i[f"{name}_i.{c}"] for c in "xyz"])
 
 
 # ---- exact values ------------------------------------------------------------------------------------------------
@@ -97,6 +104,12 @@ def quotients(code: int, x, nl, nv, vh, cosine: int, inv_n: int, inv_n_exp: int)
     return np.where(np.isfinite(g), g, 0)
 
 
+def outputs(diffuse, specular, flags) -> Arrays:
+    """Light and flags by port."""
+    told = {f"flags_o.{name}": flags >> bit & 1 for bit, name in enumerate(("model", "range", "zero", "saturated"))}
+    return {"light_o.diffuse": diffuse, "light_o.specular": specular} | told
+
+
 def in_units(value: np.ndarray, exact: np.ndarray, unit: np.ndarray) -> np.ndarray:
     """What stands for the exact value where an error counts in so many ulp."""
     return value + (exact - value) / unit
@@ -110,7 +123,7 @@ def exact_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, f
     """
     _, specular, flags = light.reflectance(n, l, v, h, vh, fresnel, material_, FORMS[form])
     if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
-        return {"diffuse_o": _dot(n, l) * ONE, "specular_o": np.zeros(specular.shape), "flags_o": flags}
+        return outputs(_dot(n, l) * ONE, np.zeros(specular.shape), flags)
     real = [np.asarray(u, Real) / ONE for u in (n, l, v, h)]
     nl, nv = (_sum(real[0], other) for other in real[1:3])
     a, b = real[0], real[3]
@@ -128,7 +141,7 @@ def exact_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, f
     clear = (flags >> k.LIGHT_ZERO & 1) == 0
     if code in (k.MODEL_COOK_TORRANCE, k.MODEL_WARD):
         clear &= (nl >= SAFE / ONE) & (nv >= SAFE / ONE)
-    return {"diffuse_o": _dot(n, l) * ONE, "specular_o": np.where(clear, value, specular), "flags_o": flags}
+    return outputs(_dot(n, l) * ONE, np.where(clear, value, specular), flags)
 
 
 def _lobe(x: np.ndarray, material_: dict[str, int]) -> np.ndarray:
@@ -160,7 +173,8 @@ def ideal_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, f
     else:
         shape = _lobe(np.ldexp(x, k.VERSINE_F), material_)
     value = shape * g * fresnel * np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
-    return rounded | {"specular_o": np.where(clear, value.clip(0, LIMITS[1]), rounded["specular_o"])}
+    specular = np.where(clear, value.clip(0, LIMITS[1]), rounded["light_o.specular"])
+    return rounded | {"light_o.specular": specular}
 
 
 def _sum(a, b) -> np.ndarray:
@@ -192,13 +206,15 @@ def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: in
 
 
 def _angles(form: str) -> Iterator[Case]:
-    names = ("diffuse_o", "nl_o", "nv_o", "x_o", "saturated_o", "nl_range_o", "nv_range_o", "x_range_o", "lost_o")
+    names = [
+        f"angles_o.{name}" for name in ("diffuse", "nl", "nv", "x", "saturated", "nl_range", "nv_range", "x_range")
+    ]
 
     def vectors(rng: np.random.Generator, rows: int, local: int, reflect: int) -> Arrays:
         l, v = unit_vectors(rng, 2 * rows).reshape(3, 2, rows).swapaxes(0, 1) if local else unit_vectors(rng, 2).T  # noqa: E741
         h = light.halfway(*l, *v)[:3]
-        packed = {name: pack(u) for name, u in zip("nlvh", (normals(rng, rows, l, v, h), l, v, h), strict=True)}
-        return ports(rows, mirror=int(rng.integers(0, 2)) & reflect, **packed)
+        named = {name: np.reshape(u, (3, -1)) for name, u in zip("lvh", (l, v, h), strict=True)}
+        return ports(rows, mirror=int(rng.integers(0, 2)) & reflect, n=normals(rng, rows, l, v, h), **named)
 
     def golden(i: Arrays) -> Arrays:
         values = light.angles(i["mirror_i"], *(vector(i, name) for name in "nlvh"), FORMS[form])
@@ -221,8 +237,37 @@ def _angles(form: str) -> Iterator[Case]:
             "shade_angles", form, {"FORM": FORMS[form], "REFLECT": reflect, "LOCAL": local}, golden, exact, exact,
             lambda rng, rows, local=local, reflect=reflect: vectors(rng, rows, local, reflect), None,
             k.LATENCY_HALFWAY + 1 + k.LATENCY_VERSINE if local else latency,
-            late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
+            late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f={"angles_o.x": k.VERSINE_F}, chunk=CHUNK,
             bound=64 if reflect else 1 / 2,  # of R, V: R's 1.5 ulp of S1.16 in three components, times |R - V|
+        )  # fmt: skip
+
+    def without_nv(of: Callable[[Arrays], Arrays]) -> Callable[[Arrays], Arrays]:
+        return lambda i: of(i) | dict.fromkeys(("angles_o.nv", "angles_o.nv_range"), np.zeros_like(i["n_i.x"]))
+
+    def of_h(rng: np.random.Generator, rows: int) -> Arrays:
+        return {name: value for name, value in vectors(rng, rows, 0, 0).items() if name[0] in "nlh"}
+
+    def folded(of: Callable[[Arrays], Arrays]) -> Callable[[Arrays], Arrays]:
+        """N.L before it is limited."""
+
+        def value(i: Arrays) -> Arrays:
+            nl = normal.dot3(*vector(i, "n"), *vector(i, "l"))
+            still = {"mirror_i": np.zeros(1, np.int64)} | {f"v_i.{c}": np.zeros(1, np.int64) for c in "xyz"}
+            values = of(i | still)
+            return {"nl_o": nl, "x_o": values["angles_o.x"], "range_o": values["angles_o.x_range"]}
+
+        return value
+
+    for fold in FOLDS:
+        point = {"FORM": FORMS[form], "FOLD": fold, "TAKE": fold // 2}
+        yield Case(
+            "shade_angles", form, point | {"REFLECT": 0}, without_nv(golden), without_nv(exact), without_nv(exact),
+            lambda rng, rows: vectors(rng, rows, 0, 0), None, k.LATENCY_ANGLES_FOLDED, fold,
+            more_f={"angles_o.x": k.VERSINE_F}, chunk=CHUNK,
+        )  # fmt: skip
+        yield Case(
+            "shade_angles_folded", form, point, folded(golden), folded(exact), folded(exact), of_h, None,
+            k.LATENCY_ANGLES_FOLDED, fold, more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
         )  # fmt: skip
 
 
@@ -238,33 +283,38 @@ def _factors(form: str) -> Iterator[Case]:
     def cosines(rng: np.random.Generator, rows: int) -> Arrays:
         code = int(rng.integers(0, len(CODES)))
         settings = registers(rng, code, form)
-        named = ports(rows, **{name: settings[name] for name in ("model", "cosine", "inv_n", "inv_n_exp")})
-        return named | sized(rng, rows, "x", top=2 << k.VERSINE_F) | sized(rng, rows, "nl", "nv", "vh")
+        given = sized(rng, rows, "x", top=2 << k.VERSINE_F) | sized(rng, rows, "nl", "nv", "vh")
+        others = ("diffuse", "saturated", "nl_range", "nv_range", "x_range")
+        angles = {name: given[f"{name}_i"] for name in ("x", "nl", "nv")} | dict.fromkeys(others, 0)
+        return ports(rows, material=of_material(settings), angles=angles, vh=given["vh_i"])
 
     def arguments(i: Arrays) -> list[np.ndarray]:
-        return [i[f"{name}_i"] for name in ("x", "nl", "nv", "vh")]
+        return [*(i[f"angles_i.{name}"] for name in ("x", "nl", "nv")), i["vh_i"]]
 
     def geometry(i: Arrays) -> Arrays:
-        settings = (i[f"{name}_i"][0] for name in ("cosine", "inv_n", "inv_n_exp"))
-        values = light.geometry(i["model_i"][0], *arguments(i), *settings)
-        shape = i["x_i"].shape
+        settings = words(i)
+        named = {name: settings[name] for name in ("cosine", "inv_n", "inv_n_exp")}
+        values = light.geometry(settings["model"], *arguments(i), **named)
+        shape = i["vh_i"].shape
         return {
-            name: np.broadcast_to(v, shape) for name, v in zip(("num_o", "w_o", "e_o", "zero_o"), values, strict=True)
+            f"factor_o.{name}": np.broadcast_to(v, shape)
+            for name, v in zip(("num", "w", "e", "zero"), values, strict=True)
         }
 
     def divided(i: Arrays) -> Arrays:
         """num such that num (1 + w) 2^e is the exact g; the other outputs as they are."""
         golden = geometry(i)
-        settings = (int(i[f"{name}_i"][0]) for name in ("cosine", "inv_n", "inv_n_exp"))
+        settings = words(i)
         x, *cosines = (value.astype(Real) for value in arguments(i))
         numbers = (np.ldexp(x, -k.VERSINE_F), *(c / ONE for c in cosines))
-        g = quotients(int(i["model_i"][0]), *numbers, *settings)
-        scale = np.ldexp(1 + np.ldexp(golden["w_o"].astype(Real), -k.FACTOR_F), golden["e_o"])
-        return golden | {"num_o": np.where(golden["zero_o"], 0, g / scale * ONE)}
+        g = quotients(settings["model"], *numbers, *(settings[name] for name in ("cosine", "inv_n", "inv_n_exp")))
+        w, e, zero = (golden[f"factor_o.{name}"] for name in ("w", "e", "zero"))
+        scale = np.ldexp(1 + np.ldexp(w.astype(Real), -k.FACTOR_F), e)
+        return golden | {"factor_o.num": np.where(zero, 0, g / scale * ONE)}
 
     yield Case(
         "shade_geometry", form, {}, geometry, divided, divided, cosines, None, k.LATENCY_GEOMETRY,
-        more_f={"w_o": k.FACTOR_F}, chunk=FEW,
+        more_f={"factor_o.w": k.FACTOR_F}, chunk=FEW,
         bound=1.8,  # of num (1 + w) 2^e: num's 1/2; w's 2.6, of two bits more, where 1 + w is at least 1/2
     )  # fmt: skip
 
@@ -275,24 +325,35 @@ def _factors(form: str) -> Iterator[Case]:
         e = np.where(rng.random(rows) < 0.25, rng.integers(low, high, rows, endpoint=True), near)
         w = mixed({"w_i": (-(1 << k.FACTOR_F - 1), 0)})(rng, rows)
         gain = int(rng.integers(1 << k.GAIN_F, 2 << k.GAIN_F))
-        return ports(rows, gain=gain, gain_exp=exponent) | sized(rng, rows, "lobe", "num", "fresnel") | w | {"e_i": e}
+        given = sized(rng, rows, "lobe", "num", "fresnel") | w | {"e_i": e}
+        return of_gain(rows, gain, exponent, given)
+
+    def of_gain(rows: int, mantissa: int, exponent: int, given: Arrays) -> Arrays:
+        factor = {name: given[f"{name}_i"] for name in ("num", "w", "e")} | {"zero": 0}
+        material_ = of_material({"gain": mantissa, "gain_exp": exponent})
+        return ports(rows, material=material_, factor=factor, lobe=given["lobe_i"], fresnel=given["fresnel_i"])
 
     def brim(rng: np.random.Generator, rows: int) -> Arrays:
         """Light that rounds up to 2, or just does not; the ends of every exponent."""
         low, high = signed_range(k.GAIN_EXP_W)
         exponent = int(rng.choice([low, high, 0, rng.integers(low, high)]))
         mantissa = int(rng.choice([97775, ONE, 2 * ONE - 1, rng.integers(ONE, 2 * ONE)]))
-        return ports(rows, gain=mantissa, gain_exp=exponent) | to_the_brim(rng, rows, mantissa, exponent)
+        return of_gain(rows, mantissa, exponent, to_the_brim(rng, rows, mantissa, exponent))
+
+    def operands(i: Arrays) -> list[np.ndarray]:
+        factor = [i[f"factor_i.{name}"] for name in ("num", "w", "e")]
+        return [i["lobe_i"], *factor, i["fresnel_i"], *(i[f"material_i.{name}"] for name in ("gain", "gain_exp"))]
 
     def gain(i: Arrays) -> Arrays:
-        values = light.gain(*(i[f"{name}_i"] for name in ("lobe", "num", "w", "e", "fresnel", "gain", "gain_exp")))
+        values = light.gain(*operands(i))
         return dict(zip(("s_o", "saturated_o"), values, strict=True))
 
     def product(i: Arrays) -> Arrays:
         """In units of the last bit, or of 2^-32 of lobe num fresnel, where what is below is cut, if that is more."""
-        golden, exponent = gain(i), np.minimum(i["e_i"] + i["gain_exp_i"], 31)
-        shape = i["lobe_i"].astype(Real) * i["num_i"] * i["fresnel_i"]
-        factor = (1 + np.ldexp(i["w_i"].astype(Real), -k.FACTOR_F)) * i["gain_i"]
+        lobe, num, w, e, fresnel, mantissa, gain_exp = operands(i)
+        golden, exponent = gain(i), np.minimum(e + gain_exp, 31)
+        shape = lobe.astype(Real) * num * fresnel
+        factor = (1 + np.ldexp(w.astype(Real), -k.FACTOR_F)) * mantissa
         value = np.ldexp(shape * factor, exponent - 3 * k.INTENSITY_F).clip(0, LIMITS[1])
         unit = np.ldexp(Real(1), np.maximum(exponent - k.INTENSITY_F, 0))
         return golden | {"s_o": in_units(golden["s_o"], value, unit)}
@@ -303,10 +364,20 @@ def _factors(form: str) -> Iterator[Case]:
             bound=3.5,  # 1/2, 1 for what is cut, the rounding of a factor of at least 1/2 in light of at most 2
         )  # fmt: skip
 
+    def plain(rng: np.random.Generator, rows: int) -> Arrays:
+        """What the folded one computes: the rest is at rest."""
+        still = {"factor_i.w": 0, "factor_i.e": 0, "fresnel_i": ONE}
+        return factors(rng, rows) | {name: np.full(rows, value) for name, value in still.items()}
+
+    for fold in FOLDS:
+        yield Case(
+            "shade_gain", form, {"FOLD": fold, "TAKE": fold // 2}, gain, product, product, plain, None, k.LATENCY_GAIN,
+            fold, chunk=FEW, bound=1.5,  # 1/2, 1 for what is cut
+        )  # fmt: skip
+
 
 def _nodes(form: str) -> Iterator[Case]:
     """Whole nodes: each model by itself where light is directional, all in turn where it is not."""
-    outputs = ("diffuse_o", "specular_o", "flags_o")
 
     def case(
         module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "", clocks: int = 1,
@@ -319,11 +390,11 @@ def _nodes(form: str) -> Iterator[Case]:
         missing += [k.MODEL_SCHLICK, k.MODEL_COOK_TORRANCE, k.MODEL_WARD] * (not built[1])
 
         def golden(i: Arrays) -> Arrays:
-            return dict(zip(outputs, light.reflectance(*inner(i), words(i), FORMS[form], *built), strict=True))
+            return outputs(*light.reflectance(*inner(i), words(i), FORMS[form], *built))
 
         def formula(of: Callable) -> Callable[[Arrays], Arrays]:
             def value(i: Arrays) -> Arrays:
-                code = int(i["model_i"][0])
+                code = int(i["material_i.model"][0])
                 return golden(i) if code in missing else of(code, words(i), *inner(i), form)
 
             return value
@@ -343,43 +414,34 @@ def _nodes(form: str) -> Iterator[Case]:
         def directional(rng: np.random.Generator, rows: int, code: int = code) -> Arrays:
             direction = rng.standard_normal(3)
             settings = registers(rng, code, form, direction)
-            settings.pop("f0")
             l, h = ([settings[u + c] for c in "xyz"] for u in "lh")  # noqa: E741
-            return ports(rows, n=normals(rng, rows, l, h, [0, 0, ONE]), **settings)
+            n = normals(rng, rows, l, h, [0, 0, ONE])
+            return ports(rows, n=n, material=of_material(settings), light=of_light(settings))
 
         def settled(i: Arrays) -> tuple:
-            l, h = ([int(i[f"{u}{c}_i"][0]) for c in "xyz"] for u in "lh")  # noqa: E741
-            l, h = (np.reshape(u, (3, 1)) for u in (l, h))  # noqa: E741
-            return vector(i, "n"), l, np.reshape([0, 0, ONE], (3, 1)), h, int(i["vh_i"][0]), ONE
+            l, h = (np.reshape([int(i[f"light_i.{u}.{c}"][0]) for c in "xyz"], (3, 1)) for u in "lh")  # noqa: E741
+            return vector(i, "n"), l, np.reshape([0, 0, ONE], (3, 1)), h, int(i["light_i.vh"][0]), ONE
 
         yield case("shade_light", directional, settled, k.LATENCY_LIGHT, CHUNK, name)
-        if form == "refined":
-            shorter = k.LATENCY_LIGHT - k.LATENCY_REFLECT
-            yield case("shade_light", directional, settled, shorter, CHUNK, name, REFLECT=0, DIVIDE=0)
-        if code in (k.MODEL_LAMBERT, k.MODEL_BLINN):
-
-            def plain(rng: np.random.Generator, rows: int, code: int = code) -> Arrays:
-                left_out = ("inv_n_i", "inv_n_exp_i", "vh_i")
-                return {port: v for port, v in directional(rng, rows, code).items() if port not in left_out}
-
-            def unfolded(i: Arrays) -> Arrays:
-                return i | dict.fromkeys(("inv_n_i", "inv_n_exp_i", "vh_i"), np.zeros(1, np.int64))
-
-            folded = case("shade_light_folded", plain, settled, k.LATENCY_LIGHT_FOLDED, CHUNK, name, 6)
-            of = {part: getattr(folded, part) for part in ("golden", "exact", "ideal")}
-            yield replace(folded, **{part: lambda i, f=f: f(unfolded(i)) for part, f in of.items()})
+        folds = FOLDS if code in (k.MODEL_LAMBERT, k.MODEL_BLINN) else FOLDS[:1]
+        for fold in (folds[0], 1, *folds[1:]):
+            point = TWO | ({"FOLD": fold, "TAKE": fold // 2} if fold > 1 else {})
+            latency = k.LATENCY_LIGHT_FOLDED + 5 * (fold == 5) if fold > 1 else k.LATENCY_LIGHT - k.LATENCY_REFLECT
+            if form == "refined" or fold > 1:
+                yield case("shade_light", directional, settled, latency, CHUNK, name, fold, **point)
 
     def local(rng: np.random.Generator, rows: int) -> Arrays:
         l, v = unit_vectors(rng, rows), unit_vectors(rng, rows)  # noqa: E741
         v[:, ::64] = -l[:, ::64]
         h = np.stack(light.halfway(*l, *v)[:3])
         settings = registers(rng, int(rng.integers(0, len(CODES))), form)
-        return ports(rows, n=normals(rng, rows, l, v, np.where(h.any(axis=0), h, l)), l=l, v=v, **settings)
+        n = normals(rng, rows, l, v, np.where(h.any(axis=0), h, l))
+        return ports(rows, n=n, l=l, v=v, material=of_material(settings))
 
     def between(i: Arrays) -> tuple:
         n, l, v = (vector(i, name) for name in "nlv")  # noqa: E741
-        *h, vh, _ = light.halfway(*l, *v)
-        return n, l, v, np.stack(h), vh, light.fresnel(vh, i["f0_i"][0])
+        *h, vh = light.halfway(*l, *v)
+        return n, l, v, np.stack(h), vh, light.fresnel(vh, words(i)["f0"])
 
     yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW)
     yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW, REFLECT=0, DIVIDE=0)
@@ -387,11 +449,11 @@ def _nodes(form: str) -> Iterator[Case]:
     def packed(rng: np.random.Generator, rows: int, several: bool) -> Arrays:
         size = rows if several else 1
         l, v = unit_vectors(rng, 2 * size).reshape(3, 2, size).swapaxes(0, 1)  # noqa: E741
-        *h, vh, _ = light.halfway(*l, *v)
-        settings = registers(rng, int(rng.integers(0, len(CODES))), form)
-        settings.pop("f0")
-        vectors = {name: pack(u) for name, u in zip("nlvh", (normals(rng, rows, l, v, h), l, v, h), strict=True)}
-        return ports(rows, **vectors, vh=vh, fresnel=rng.integers(*COSINE, size, endpoint=True), **settings)
+        *h, vh = light.halfway(*l, *v)
+        settings = of_material(registers(rng, int(rng.integers(0, len(CODES))), form))
+        fresnel = rng.integers(*COSINE, size, endpoint=True)
+        n = normals(rng, rows, l, v, h)
+        return ports(rows, n=n, l=l, v=v, h=np.stack(h), vh=vh, fresnel=fresnel, material=settings)
 
     def given(i: Arrays) -> tuple:
         return *(vector(i, name) for name in "nlvh"), i["vh_i"], i["fresnel_i"]

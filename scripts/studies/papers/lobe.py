@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import material
+from polyshade.sim.units.light import lobe_latency
 
 COSINES = np.arange((1 << k.INTENSITY_F) + 1)
 C = COSINES / (1 << k.INTENSITY_F)
@@ -19,5 +20,6 @@ def rtl_lobe(
 ) -> NDArray[np.float64]:
     """``shade_lobe``, so many squarings built, as a model's highlight, relative to its peak, at every cosine ``C``."""
     words = material.lobe_registers(*material.fit(model, shininess, roughness, form, stages))
-    inputs = {f"{name}_i": value for name, value in words.items()}
-    return sim.load("shade_lobe", POWER=stages).run(x_i=VERSINES, **inputs).lobe_o / (1 << k.INTENSITY_F)
+    return sim.load("shade_lobe", POWER=stages).run(
+        x_i=VERSINES, lobe_i=words, latency=lobe_latency(stages, 1)
+    ).lobe_o / (1 << k.INTENSITY_F)

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from polyshade import sim
 from polyshade.golden import contract as k
-from polyshade.golden import material
+from polyshade.golden import material, registers
 from polyshade.golden.reference import light as reference
 from polyshade.scripts.flow import synth
 from polyshade.scripts.studies.papers import figures
@@ -280,12 +280,11 @@ def run_direct(m: float, ward: int) -> sim.Run:
 
 def rtl_light(skin: material.Material, normal: NDArray[np.float64], light: tuple[float, ...]) -> NDArray[np.float64]:
     """(P, 2): diffuse, unclamped, and specular light of ``shade_light`` at unit normals (P, 3)."""
-    unit = sim.load("shade_light")
-    wanted = {port.name for port in unit.interface.into.data}
-    words = {f"{name}_i": value for name, value in material.registers(skin, light).items()}
-    n = dict(zip(("nx_i", "ny_i", "nz_i"), frame.quantize(normal).T, strict=True))
-    run = unit.run(**n, **{name: value for name, value in words.items() if name in wanted})
-    return np.stack([run.diffuse_o, run.specular_o], axis=1) / ONE
+    words = registers.draw(material.registers(skin, light))
+    named = [(*path.split(".", 1), value) for path, value in words.items()]
+    settings = {f"{part}_i.{name}": value for part, name, value in named if part in ("material", "light")}
+    run = sim.load("shade_light").run(n_i=frame.quantize(normal), **settings)
+    return np.stack([run.light_o["diffuse"], run.light_o["specular"]], axis=1) / ONE
 
 
 # ---- figures -----------------------------------------------------------------------------------------------------

@@ -47,7 +47,8 @@ module shade_phong #(
   // ---- normals and light of the pixels ---------------------------------------------------------------------------
   logic valid_e, valid_l, unused_zero;
   shade_pkg::vec_t n, e;
-  logic signed [W-1:0] diffuse, specular;
+  shade_pkg::intensity_t light;
+  shade_pkg::flags_t unused_flags;
   shade_increment u_increment (
     .clk_i, .valid_i(issue), .first_i(first), .line_i(1'b0), .n_i(span_q.normal), .g_i(span_q.increment), .l_i('0),
     .n_o(n)
@@ -57,20 +58,16 @@ module shade_phong #(
     .clk_i, .rst_i, .valid_i(issue), .valid_o(valid_e)
   );
   shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
-    .clk_i, .rst_i, .model_i(draw_i.material.model), .cosine_i(draw_i.material.cosine), .k1_i(draw_i.material.k1), .k2_i(draw_i.material.k2),
-    .shift_i(draw_i.material.shift), .xmax_i(draw_i.material.xmax), .power_i(draw_i.material.power), .inv_n_i(draw_i.material.inv_n),
-    .inv_n_exp_i(draw_i.material.inv_n_exp), .gain_i(draw_i.material.gain), .gain_exp_i(draw_i.material.gain_exp),
-    .lx_i(draw_i.light.l.x), .ly_i(draw_i.light.l.y), .lz_i(draw_i.light.l.z), .hx_i(draw_i.light.h.x), .hy_i(draw_i.light.h.y), .hz_i(draw_i.light.h.z),
-    .vh_i(draw_i.light.vh), .valid_i(valid_e), .nx_i(e.x), .ny_i(e.y), .nz_i(e.z), .valid_o(valid_l),
-    .diffuse_o(diffuse), .specular_o(specular), .flags_o()
+    .clk_i, .rst_i, .phase_i('0), .material_i(draw_i.material), .light_i(draw_i.light), .valid_i(valid_e), .n_i(e),
+    .valid_o(valid_l), .light_o(light), .flags_o(unused_flags)
   );
 
   // ---- pixels ----------------------------------------------------------------------------------------------------
   localparam int PIXEL_W = shade_pkg::PIXEL_W;
   logic valid_q, unused_there, unused_taken;
   shade_pkg::pixel_t pixel, pixel_q;
-  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_diffuse (.x_i(diffuse), .y_o(pixel.diffuse));
-  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_specular (.x_i(specular), .y_o(pixel.specular));
+  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_diffuse (.x_i(light.diffuse), .y_o(pixel.diffuse));
+  shade_saturate #(.WIDTH(W), .OUT_W(PIXEL_W)) u_specular (.x_i(light.specular), .y_o(pixel.specular));
   always_ff @(posedge clk_i) begin
     pixel_q <= pixel;
     valid_q <= valid_l;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// shade_angles_folded: N.L and the versine of N, H with multipliers that their six products share.
+//
+//   n_i            S1.16         unit vector, taken when phase_i is TAKE
+//   l_i, h_i       S1.16         unit vectors, settings
+//   nl_o           S4.16         N.L, rounded once, to nearest, ties up
+//   x_o, range_o                 as of shade_versine
+//
+// phase_i counts 0 .. FOLD - 1. FOLD = 2: three multipliers, one for each component of both. FOLD = 3 .. 5: two, one for
+// each sum. FOLD = 6 .. 8: one. Operands are chosen a clock before they stand at a multiplier, the differences of the chord
+// a clock before these. Latency LATENCY_ANGLES_FOLDED = 11 clocks, a node in FOLD clocks.
+// Source: P1, section II. Example: N = L = H -> nl = 1, x = 0.
+module shade_angles_folded #(
+  parameter int FORM = shade_pkg::FORM_REFINED,
+  parameter int FOLD = 6,
+  parameter int TAKE = 0
+) (
+  input  logic                                   clk_i,
+  input  logic        [  shade_pkg::PHASE_W-1:0] phase_i,
+  input  shade_pkg::vec_t                        n_i,
+  input  shade_pkg::vec_t                        l_i,
+  input  shade_pkg::vec_t                        h_i,
+  output logic signed [    shade_pkg::DOT_W-1:0] nl_o,
+  output logic        [shade_pkg::VERSINE_W-1:0] x_o,
+  output logic                                   range_o
+);
+  if (FOLD < 2 || FOLD > shade_pkg::FOLD_MAX || TAKE < 0 || TAKE >= FOLD) begin : g_check
+    $error("shade_angles_folded: FOLD must be in 2 .. 8 and TAKE below FOLD");
+  end
+
+  localparam bit REFINED = FORM == shade_pkg::FORM_REFINED;
+  localparam int W = shade_pkg::INTENSITY_W;
+  localparam int F = shade_pkg::INTENSITY_F;
+  localparam int P_W = 2 * W;
+  localparam int SUM_W = P_W + 3;
+  localparam int DOT_W = shade_pkg::DOT_W;
+  localparam int DROP = 2 * F + (REFINED ? 1 : 0) - shade_pkg::VERSINE_F;
+  localparam int X_W = SUM_W - DROP;
+  localparam logic signed [SUM_W-1:0] HALF_NL = SUM_W'(1) <<< (F - 1);
+  localparam logic signed [SUM_W-1:0] HALF_X = SUM_W'(1) <<< (DROP - 1);
+  localparam logic signed [SUM_W-1:0] FIRST_X = REFINED ? HALF_X : HALF_X + (SUM_W'(1) <<< (2 * F));
+
+  // clocks of a node in which its first product of the versine has its operands chosen, and in which the sums are there
+  localparam int X_AT = FOLD == 2 ? 1 : FOLD < 6 ? 2 : 3;
+  localparam int NL_DONE = FOLD == 2 ? 4 : 6;
+  localparam int X_DONE = X_AT + NL_DONE;
+  localparam int LATENCY = shade_pkg::LATENCY_ANGLES_FOLDED;
+
+  // is it clock c of a node?
+  function automatic logic at(input int c);
+    at = phase_i == shade_pkg::PHASE_W'((TAKE + c) % FOLD);
+  endfunction
+
+  logic signed [SUM_W-1:0] nl_sum, x_sum;
+  if (FOLD == 2) begin : g_components
+    logic signed [SUM_W-1:0] xy_q, z_q;
+    logic [2:0][W-1:0] n, l, h;
+    logic [2:0][P_W-1:0] p;
+    logic minus, minus_q;
+    assign {n, l, h} = {n_i, l_i, h_i};
+    assign minus     = !REFINED && at(X_AT + 3);
+    for (genvar c = 0; c < 3; c++) begin : g_component
+      logic signed [W:0] difference;
+      logic signed [W-1:0] limited, left_q, right_q, a_q, b_q;
+      assign difference = (W + 1)'($signed(n[c])) - (W + 1)'($signed(h[c]));
+      shade_limit #(.WIDTH(W + 1), .OUT_W(W)) u_limit (.x_i(difference), .y_o(limited));
+      always_ff @(posedge clk_i) begin
+        {left_q, right_q} <= REFINED ? {limited, limited} : {n[c], h[c]};
+        {a_q, b_q}        <= at(0) ? {n[c], l[c]} : {left_q, right_q};
+      end
+      shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(p[c]));
+    end
+    always_ff @(posedge clk_i) begin
+      xy_q    <= SUM_W'($signed(p[0])) + SUM_W'($signed(p[1]));
+      z_q     <= (at(3) ? HALF_NL : FIRST_X) + (minus ? -SUM_W'($signed(p[2])) : SUM_W'($signed(p[2])));
+      minus_q <= minus;
+    end
+    assign nl_sum = minus_q ? z_q - xy_q : z_q + xy_q;
+    assign x_sum  = nl_sum;
+  end else begin : g_sums
+    localparam int SUMS = FOLD < 6 ? 2 : 1;  // with a multiplier each
+    shade_pkg::vec_t n_q;
+    logic signed [W-1:0] n, h, limited, left_q, right_q;
+    logic signed [W:0] difference;
+    logic signed [SUMS-1:0][SUM_W-1:0] sum_q;
+    always_comb begin
+      {n, h} = {n_q.z, h_i.z};
+      if (at(X_AT - 1)) {n, h} = {n_q.x, h_i.x};
+      else if (at(X_AT)) {n, h} = {n_q.y, h_i.y};
+    end
+    assign difference = (W + 1)'(n) - (W + 1)'(h);
+    shade_limit #(.WIDTH(W + 1), .OUT_W(W)) u_limit (.x_i(difference), .y_o(limited));
+    always_ff @(posedge clk_i) begin
+      if (at(0)) n_q <= n_i;
+      {left_q, right_q} <= REFINED ? {limited, limited} : {n, h};
+    end
+    for (genvar m = 0; m < SUMS; m++) begin : g_sum
+      localparam bit NL = m == 0;
+      localparam bit X = m == SUMS - 1;
+      logic signed [W-1:0] a_q, b_q;
+      logic signed [P_W-1:0] p;
+      logic signed [SUM_W-1:0] first, term;
+      logic starts, minus;
+      always_ff @(posedge clk_i) begin
+        if (NL && at(0)) {a_q, b_q} <= {n_i.x, l_i.x};
+        else if (NL && at(1)) {a_q, b_q} <= {n_q.y, l_i.y};
+        else if (NL && (!X || at(2))) {a_q, b_q} <= {n_q.z, l_i.z};
+        else {a_q, b_q} <= {left_q, right_q};
+      end
+      shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(p));
+      assign starts = (NL && at(3)) || (X && at(X_AT + 3));
+      assign first  = NL && (!X || at(3)) ? HALF_NL : FIRST_X;
+      assign minus  = !REFINED && X && (at(X_AT + 3) || at(X_AT + 4) || at(X_AT + 5));
+      assign term   = minus ? -(SUM_W'(p)) : SUM_W'(p);
+      always_ff @(posedge clk_i) sum_q[m] <= (starts ? first : $signed(sum_q[m])) + term;
+    end
+    assign nl_sum = sum_q[0];
+    assign x_sum  = sum_q[SUMS-1];
+  end
+
+  // ---- N.L; x into its range -------------------------------------------------------------------------------------
+  logic signed [DOT_W-1:0] nl_q;
+  logic signed [X_W-1:0] far_q;
+  logic [shade_pkg::VERSINE_W-1:0] x, x_q;
+  logic range, range_q;
+  shade_clamp #(.WIDTH(X_W), .F(shade_pkg::VERSINE_F + 1)) u_clamp (.x_i(far_q), .y_o(x), .clamped_o(range));
+  always_ff @(posedge clk_i) begin
+    if (at(NL_DONE)) nl_q <= DOT_W'(nl_sum >>> F);
+    if (at(X_DONE)) far_q <= X_W'(x_sum >>> DROP);
+    if (at(X_DONE + 1)) {range_q, x_q} <= {range, x};
+  end
+  shade_hold #(.WIDTH(DOT_W), .DEPTH(LATENCY - NL_DONE - 1), .FOLD(FOLD)) u_nl (
+    .clk_i, .load_i(at(NL_DONE)), .d_i(nl_q), .q_o(nl_o)
+  );
+  shade_hold #(.WIDTH($bits(x_o) + 1), .DEPTH(LATENCY - X_DONE - 2), .FOLD(FOLD)) u_x (
+    .clk_i, .load_i(at(X_DONE + 1)), .d_i({range_q, x_q}), .q_o({range_o, x_o})
+  );
+endmodule

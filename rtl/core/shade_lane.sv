@@ -90,11 +90,11 @@ module shade_lane #(
     dark_q   <= !rst_i && (pixels ? pixel : lined);
   end
   shade_pkg::intensity_t light;
-  // folded, the light takes a normal when it comes
-  localparam int TAKE = FOLD == 1 ? 0 : (shade_pkg::LATENCY_UNIT_FOLDED + 1) % FOLD;
-  localparam int LIGHT = FOLD == 1 ? shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT)
-                                   : shade_pkg::LATENCY_LIGHT_FOLDED;
-  shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .FOLD(FOLD), .TAKE(TAKE)) u_light (
+  // a folded light takes normals in the phase in which they come
+  localparam int TO_LIGHT = (FOLD < 3 ? shade_pkg::LATENCY_UNIT : shade_pkg::LATENCY_UNIT_FOLDED) + 1;
+  localparam int LIGHT = FOLD > 1 ? shade_pkg::LATENCY_LIGHT_FOLDED + (FOLD == 5 ? 5 : 0)
+                       : shade_pkg::LATENCY_LIGHT - (REFLECT == 1 ? 0 : shade_pkg::LATENCY_REFLECT);
+  shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .FOLD(FOLD), .TAKE(TO_LIGHT % FOLD)) u_light (
     .clk_i, .rst_i, .phase_i, .material_i(draw_i.material), .light_i(draw_i.light), .valid_i(dark_q), .n_i(normal_q),
     .valid_o(lit_o), .light_o(light), .flags_o(flags_o.light)
   );

@@ -70,6 +70,7 @@ def test_numpy(case: Case) -> None:
     assert result.mismatches == 0, result.first_mismatch
     assert result.vectors >= (1 if case.all_vectors else wanted)
     assert result.max_error_ulp <= case.limit + 1e-9, result.worst_input
+    assert result.max_share <= 1, result.worst_input
     assert result.throughput == pytest.approx(1 / case.clocks_per_vector, rel=0.01 if result.vectors > 1000 else 0.5)
 
 

@@ -58,7 +58,7 @@ module shade_lobe #(
   // ---- X: the least of x 2^shift and xmax ------------------------------------------------------------------------
   localparam int X_F = shade_lobe_pkg::X_F;
   localparam int X_W = shade_lobe_pkg::X_W;
-  localparam int LAST_W = shade_lobe_pkg::LAST_W;
+  localparam int LAST_W = shade_lobe_pkg::X_F - shade_lobe_pkg::FIRST_F;
   localparam int WIDE_W = shade_pkg::VERSINE_W + shade_pkg::LOBE_FINE - 1;
   logic fine, over_q2, dark_q1, dark_q2;  // dark: c < 0
   logic [WIDE_W-1:0] wide_q1;

@@ -30,7 +30,7 @@ module shade_lobe_folded #(
   localparam int MUL = shade_pkg::LATENCY_MUL;
   localparam int W = shade_lobe_pkg::W;
   localparam int P_W = 2 * W;
-  localparam int LAST_W = shade_lobe_pkg::LAST_W;
+  localparam int LAST_W = shade_lobe_pkg::X_F - shade_lobe_pkg::FIRST_F;
   localparam int FIRST_W = shade_lobe_pkg::FIRST_W;
   localparam int ROW_W = shade_lobe_pkg::ROW_W;
   localparam int Y_W = shade_lobe_pkg::Y_W;

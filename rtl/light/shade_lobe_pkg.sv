@@ -22,7 +22,6 @@ package shade_lobe_pkg;
   localparam int P_W = 2 * W;
   localparam int X_W = X_F + 1;
   localparam int FIRST_W = FIRST_F + 1;  // X'
-  localparam int LAST_W = X_F - FIRST_F;  // bits of X that X' leaves
   localparam int K_F = K1_W;  // k1 - k2 and half an ulp of s
   localparam int K_W = K_F + 3;
   localparam int MIDDLE_W = K_F - K2_F;

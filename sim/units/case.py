@@ -6,6 +6,7 @@ corners and random ones at full width. :meth:`Case.check` runs it through the RT
 
     mismatches        RTL against golden model, in every bit, and in every latency
     max_error_ulp     golden model against the exact value of the unit's formula, in units of its last bit
+    max_share         the same, in units of what is allowed for the vector, where that differs from vector to vector
     max_error_ideal   against the function that the formula approximates, as a number (1.0: full intensity)
 
 Two engines run a case: this one, NumPy, with a vector on every clock, and cocotb (``tb.case_bench``), with gaps and
@@ -37,6 +38,7 @@ class Result:
     mismatches: int = 0
     first_mismatch: str = ""
     max_error_ulp: float = 0.0
+    max_share: float = 0.0
     max_error_ideal: float = 0.0
     worst_input: dict[str, int] = field(default_factory=dict)
     latency: int = 0
@@ -46,6 +48,7 @@ class Result:
         """Take another result of the same unit in."""
         if other.max_error_ulp > self.max_error_ulp or not self.vectors:
             self.max_error_ulp, self.worst_input = other.max_error_ulp, other.worst_input
+        self.max_share = max(self.max_share, other.max_share)
         self.max_error_ideal = max(self.max_error_ideal, other.max_error_ideal)
         self.vectors += other.vectors
         self.mismatches += other.mismatches
@@ -60,10 +63,11 @@ class Case:
     ``golden``, ``exact``, ``ideal``: inputs -> outputs by port name, of structures by field (``n_i.x``);
     ``vectors(rng, rows)`` makes random inputs, ``all_vectors`` yields every input. ``latency``: declared; of every
     single vector. ``bound``: of the error against ``exact`` in ulp, in the paper's form at least 1/2; rounding to
-    nearest: 1/2. ``late``: inputs that are taken so many clocks after the others. ``ordered``: an output depends on the
-    vectors before. ``own_bench``: cocotb does not run it, as the module's bench does more. ``unit_f``: fraction bits of
-    the outputs, ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in
-    it: settings, which change while nothing is in flight. ``note``: what sets apart cases of the same point.
+    nearest: 1/2. ``tolerance``: instead of a bound what the error of each vector may be, in ulp, by port. ``late``:
+    inputs that are taken so many clocks after the others. ``ordered``: an output depends on the vectors before.
+    ``own_bench``: cocotb does not run it, as the module's bench does more. ``unit_f``: fraction bits of the outputs,
+    ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in it: settings,
+    which change while nothing is in flight. ``note``: what sets apart cases of the same point.
     """
 
     module: str
@@ -77,6 +81,7 @@ class Case:
     latency: int
     clocks_per_vector: int = 1
     bound: float = 1 / 2
+    tolerance: Callable[[Arrays], Arrays] | None = None
     late: Mapping[str, int] = field(default_factory=dict)
     ordered: bool = False
     own_bench: bool = False
@@ -93,6 +98,8 @@ class Case:
     @property
     def limit(self) -> float:
         """What the error may be, in ulp."""
+        if self.tolerance:
+            return np.inf
         return self.bound if self.form == "refined" else max(self.bound, 1 / 2)
 
     def stream(self, vectors: int, seed: int) -> Iterator[Arrays]:
@@ -182,8 +189,14 @@ class Case:
     def _measure(self, inputs: Arrays, golden: Arrays, result: Result) -> None:
         exact = self.exact(inputs)
         ideal = exact if self.ideal is self.exact else self.ideal(inputs)
+        tolerance = self.tolerance(inputs) if self.tolerance else {}
         for name, value in golden.items():
             error = np.abs(value - exact[name])
+            if name in tolerance:
+                share = np.divide(
+                    error, tolerance[name], out=np.where(error > 0, np.inf, 0.0), where=tolerance[name] > 0
+                )
+                result.max_share = max(result.max_share, float(share.max()))
             at = int(np.argmax(error))
             if float(error[at]) > result.max_error_ulp or not result.worst_input:
                 result.max_error_ulp = float(error[at])

@@ -13,17 +13,26 @@ from polyshade.golden import contract as k
 from polyshade.golden import light, material, normal
 from polyshade.golden.reference.light import ROWS
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, mixed, signed_range
-from polyshade.sim.units.light import FEW, exact_lobe
+from polyshade.sim.units.exact_light import (
+    CODES,
+    LIMITS,
+    allowed,
+    cosine,
+    exact_light,
+    ideal_light,
+    in_units,
+    outputs,
+    quotients,
+    total,
+)
+from polyshade.sim.units.light import FEW
 from polyshade.sim.units.normal import unit_vectors
 
 CHUNK = 25_000
-CODES = range(1 << k.MODEL_W)  # reserved ones too
 NAMES = {code: name for name, code in material.MODELS.items()}
-LIMITS = signed_range(k.INTENSITY_W)
 COSINE = (0, ONE)
 TWO = {"REFLECT": 0, "DIVIDE": 0}  # Lambert and Blinn
 FOLDS = (6, *range(2, 6), 8, 7)  # the first and the last in the default run
-SAFE = ONE >> 4  # N.L and N.V from which on the ideal function is compared: both quotients grow without limit towards 0
 
 
 def registers(rng: np.random.Generator, code: int, form: str, direction=None) -> dict[str, int]:
@@ -83,107 +92,7 @@ def vector(i: Arrays, name: str) -> np.ndarray:
     return np.stack([i[f"{name}_i.{c}"] for c in "xyz"])
 
 
-# ---- exact values ------------------------------------------------------------------------------------------------
-
-
-def quotients(code: int, x, nl, nv, vh, cosine: int, inv_n: int, inv_n_exp: int) -> np.ndarray:
-    """g of ``golden.light.geometry`` from numbers, by the models' formulas; 0 where a denominator is 0."""
-    nh, n = np.maximum(1 - x, 0), np.ldexp(Real(ONE), inv_n_exp) / max(inv_n, 1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if code == k.MODEL_SCHLICK:
-            g = nh / (n * np.minimum(x, 2) + nh)
-        elif code == k.MODEL_COOK_TORRANCE:
-            shares = [np.where(vh > 0, 2 * nh * c / vh, 1) for c in (nl, nv)]
-            g = np.minimum(1, np.minimum(*shares)) / (nl * nv)
-        elif code == k.MODEL_WARD:
-            g = 1 / np.sqrt(nl * nv)
-        elif code in (k.MODEL_PHONG, k.MODEL_BLINN):
-            g = nl if cosine else np.ones_like(x)
-        else:
-            g = np.zeros_like(x)
-    return np.where(np.isfinite(g), g, 0)
-
-
-def outputs(diffuse, specular, flags) -> Arrays:
-    """Light and flags by port."""
-    told = {f"flags_o.{name}": flags >> bit & 1 for bit, name in enumerate(("model", "range", "zero", "saturated"))}
-    return {"light_o.diffuse": diffuse, "light_o.specular": specular} | told
-
-
-def in_units(value: np.ndarray, exact: np.ndarray, unit: np.ndarray) -> np.ndarray:
-    """What stands for the exact value where an error counts in so many ulp."""
-    return value + (exact - value) / unit
-
-
-def exact_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str) -> Arrays:  # noqa: E741
-    """The formulas of the vectors and registers as they are; flags of the golden model.
-
-    The quotients of Cook-Torrance and Ward turn a last bit of N.L and N.V into any number of them where these are near
-    0: what is below 1/16 does not count, nor what the golden model tells to have no light.
-    """
-    _, specular, flags = light.reflectance(n, l, v, h, vh, fresnel, material_, FORMS[form])
-    if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
-        return outputs(_dot(n, l) * ONE, np.zeros(specular.shape), flags)
-    real = [np.asarray(u, Real) / ONE for u in (n, l, v, h)]
-    nl, nv = (_sum(real[0], other) for other in real[1:3])
-    a, b = real[0], real[3]
-    if code == k.MODEL_PHONG:
-        lowest, highest = (limit / ONE for limit in LIMITS)
-        a, b = ((2 * nl).clip(-highest, 2) * real[0] - real[1]).clip(lowest, highest), real[2]
-    chord = ((a - b) * ONE).clip(*LIMITS) / ONE
-    x = (_sum(chord, chord) / 2 if form == "refined" else 1 - _sum(a, b)).clip(0, 2)
-    nl, nv = nl.clip(0, 1), nv.clip(0, 1)
-    shape = 1 if code == k.MODEL_SCHLICK else _lobe(np.ldexp(x, k.VERSINE_F), material_)
-    more = [material_[name] for name in ("cosine", "inv_n", "inv_n_exp")]
-    g = quotients(code, x, nl, nv, np.asarray(vh, Real) / ONE, *more)
-    gain = np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
-    value = (shape * g * np.asarray(fresnel, Real) * gain).clip(0, LIMITS[1])
-    clear = (flags >> k.LIGHT_ZERO & 1) == 0
-    if code in (k.MODEL_COOK_TORRANCE, k.MODEL_WARD):
-        clear &= (nl >= SAFE / ONE) & (nv >= SAFE / ONE)
-    return outputs(_dot(n, l) * ONE, np.where(clear, value, specular), flags)
-
-
-def _lobe(x: np.ndarray, material_: dict[str, int]) -> np.ndarray:
-    words = {name: material_[name] for name in light.LOBE}
-    return exact_lobe(x, **words | {"power": min(words["power"], material.STAGES)})
-
-
-def ideal_light(code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str) -> Arrays:  # noqa: E741
-    """The formulas of the *true* unit vectors, with the lobe that the registers stand for.
-
-    Where N is no unit vector, or N.L or N.V is below 1/16, those of :func:`exact_light`.
-    """
-    rounded = exact_light(code, material_, n, l, v, h, vh, fresnel, form)
-    if code in (k.MODEL_LAMBERT, *CODES[k.MODEL_WARD + 1 :]):
-        return rounded
-    lengths = [np.sqrt(np.sum(np.square(np.asarray(vector, Real)), axis=0)) for vector in (n, l, v, h)]
-    clear = np.abs(lengths[0] / ONE - 1) < 2 / ONE
-    n, l, v, h = (np.asarray(u, Real) / np.maximum(length, 1) for u, length in zip((n, l, v, h), lengths, strict=True))  # noqa: E741
-    nl, nv, nh, vh = _sum(n, l), _sum(n, v), _sum(n, h), _sum(v, h)
-    clear = clear & (nl >= SAFE / ONE) & (nv >= SAFE / ONE) & (vh > 0)
-    nl, nv, vh = (np.where(clear, c, 1) for c in (nl, nv, vh))
-    x = 1 - (2 * nl * _sum(n, v) - _sum(l, v) if code == k.MODEL_PHONG else nh)
-    g = {
-        k.MODEL_COOK_TORRANCE: lambda: np.minimum(1, 2 * nh.clip(0) * np.minimum(nl, nv) / vh) / (nl * nv),
-        k.MODEL_WARD: lambda: 1 / np.sqrt(nl * nv),
-    }.get(code, lambda: np.where(material_["cosine"], nl, 1))()
-    if code == k.MODEL_SCHLICK:
-        shape = nh.clip(0) / (x / (material_["inv_n"] / ONE) * 2.0 ** material_["inv_n_exp"] + nh.clip(0))
-    else:
-        shape = _lobe(np.ldexp(x, k.VERSINE_F), material_)
-    value = shape * g * fresnel * np.ldexp(Real(material_["gain"]), material_["gain_exp"] - k.GAIN_F)
-    specular = np.where(clear, value.clip(0, LIMITS[1]), rounded["light_o.specular"])
-    return rounded | {"light_o.specular": specular}
-
-
-def _sum(a, b) -> np.ndarray:
-    return np.sum(np.asarray(a) * np.asarray(b), axis=0)
-
-
-def _dot(a, b) -> np.ndarray:
-    """The dot product of two vectors S1.16, limited to what S1.16 holds, as a number."""
-    return (_sum(np.asarray(a, Real), b) / ONE).clip(*LIMITS) / ONE
+# ---- vectors of the gain ---------------------------------------------------------------------------------------
 
 
 def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: int) -> Arrays:
@@ -224,10 +133,10 @@ def _angles(form: str) -> Iterator[Case]:
         n, l, v, h = (vector(i, name).astype(Real) for name in "nlvh")  # noqa: E741
         a, b = n, h
         if i["mirror_i"][0]:
-            a, b = ((2 * _sum(n, l) / ONE).clip(-LIMITS[1], 2 * ONE) * n / ONE - l).clip(*LIMITS), v
+            a, b = ((2 * total(n, l) / ONE).clip(-LIMITS[1], 2 * ONE) * n / ONE - l).clip(*LIMITS), v
         chord = ((a - b).clip(*LIMITS) ** 2).sum(axis=0) / 2
-        x = chord if form == "refined" else Real(ONE) ** 2 - _sum(a, b)
-        cosines = [_dot(n, l) * ONE, *((_sum(n, other) / ONE).clip(0, ONE) for other in (l, v))]
+        x = chord if form == "refined" else Real(ONE) ** 2 - total(a, b)
+        cosines = [cosine(n, l) * ONE, *((total(n, other) / ONE).clip(0, ONE) for other in (l, v))]
         x = np.ldexp(x, k.VERSINE_F - 2 * k.INTENSITY_F).clip(0, 2 << k.VERSINE_F)
         return golden(i) | dict(zip(names, (*cosines, x), strict=False))
 
@@ -381,13 +290,15 @@ def _nodes(form: str) -> Iterator[Case]:
 
     def case(
         module: str, vectors: Callable, inner: Callable, latency: int, chunk: int, note: str = "", clocks: int = 1,
-        late: dict[str, int] | None = None, **point: int,
+        late: dict[str, int] | None = None, given: Callable | None = None, **point: int,
     ) -> Case:  # fmt: skip
-        """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs. What is left out at the
-        ``point`` has no formula: there RTL and golden model are compared, and no more."""
+        """``inner`` gives the vectors n, l, v, h, vh and Fresnel's factor of the inputs; ``given`` those of the
+        formula, where H is computed. What is left out at the ``point`` has no formula: there RTL and golden model are
+        compared, and no more."""
         built = [point.get(name, 1) for name in ("REFLECT", "DIVIDE")]
         missing = [k.MODEL_PHONG] * (not built[0])
         missing += [k.MODEL_SCHLICK, k.MODEL_COOK_TORRANCE, k.MODEL_WARD] * (not built[1])
+        given = given or inner
 
         def golden(i: Arrays) -> Arrays:
             return outputs(*light.reflectance(*inner(i), words(i), FORMS[form], *built))
@@ -395,18 +306,19 @@ def _nodes(form: str) -> Iterator[Case]:
         def formula(of: Callable) -> Callable[[Arrays], Arrays]:
             def value(i: Arrays) -> Arrays:
                 code = int(i["material_i.model"][0])
-                return golden(i) if code in missing else of(code, words(i), *inner(i), form)
+                return golden(i) if code in missing else of(code, words(i), golden(i), *given(i), form)
 
             return value
 
+        def tolerance(i: Arrays) -> Arrays:
+            code = int(i["material_i.model"][0])
+            f0 = None if given is inner else words(i)["f0"]
+            specular = 0 if code in missing else allowed(code, words(i), *given(i), form, f0)
+            return {"light_o.diffuse": 1 / 2, "light_o.specular": specular}
+
         return Case(
             module, form, {"FORM": FORMS[form]} | point, golden, formula(exact_light), formula(ideal_light), vectors,
-            None, latency, clocks, chunk=chunk, note=note, late=late or {},
-            # light of at most 2 falls by 2 n times what x lacks, 1/2 ulp of U2.20: n / 16, 64 at n = 1024; the lobe's
-            # 1.2 times the gain of these materials, 16 at most; as much again by H's and V.H's roundings
-            # paper form, Phong: x = 1 - R.V of R's 1.5 ulp in three components, 2.6 of S1.16; light of 1 falls by n
-            # times that
-            bound=2700 if (form, note) == ("paper", "phong") else 200 if module == "shade_light_local" else 84,
+            None, latency, clocks, chunk=chunk, note=note, late=late or {}, tolerance=tolerance,
         )  # fmt: skip
 
     for code, name in NAMES.items():
@@ -443,8 +355,18 @@ def _nodes(form: str) -> Iterator[Case]:
         *h, vh = light.halfway(*l, *v)
         return n, l, v, np.stack(h), vh, light.fresnel(vh, words(i)["f0"])
 
-    yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW)
-    yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW, REFLECT=0, DIVIDE=0)
+    def exactly(i: Arrays) -> tuple:
+        """H, V.H and Fresnel's factor as numbers, in ulp."""
+        n, l, v = (vector(i, name) for name in "nlv")  # noqa: E741
+        s = np.asarray(l + v, Real).clip(*LIMITS)
+        length = np.sqrt((s * s).sum(axis=0))
+        h = s / np.where(length == 0, 1, length) * ONE
+        vh = ((v * h).sum(axis=0) / ONE).clip(0, ONE)
+        f0 = min(words(i)["f0"], ONE)
+        return n, l, v, h, vh, f0 + (ONE - f0) * (1 - vh / ONE) ** 5
+
+    for point in ({}, TWO):
+        yield case("shade_light_local", local, between, k.LATENCY_LIGHT_LOCAL, FEW, given=exactly, **point)
 
     def packed(rng: np.random.Generator, rows: int, several: bool) -> Arrays:
         size = rows if several else 1

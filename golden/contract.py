@@ -75,8 +75,9 @@ MODEL_SCHLICK = 3  # c / (n - n c + c), c = N.H
 MODEL_COOK_TORRANCE = 4  # F G D / (pi (N.L) (N.V))
 MODEL_WARD = 5  # D / (4 pi m^2 sqrt((N.L) (N.V)))
 MODEL_W = 3
-VERSINE_F = 20  # x = 1 - c of two unit vectors, U2.20 in [0, 2]
-VERSINE_W = 22
+VERSINE_F = 26  # x = 1 - c of two unit vectors, U2.26 in [0, 2]
+VERSINE_W = 28
+VERSINE_CUT = 6  # its last bits, which count where the lobe scales x up by them
 LOBE_K1_F = 20  # k1 of the shifted x, U1.20 in [0, 2)
 LOBE_K1_W = 21
 LOBE_K2_F = 17  # k2 of the shifted x, S0.17

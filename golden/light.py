@@ -17,24 +17,30 @@ from .fixed import ONE, Int, clamp, integers, limit, round, rsqrt, saturate
 from .normal import dot3, normalize
 
 
-def versine(ax: ArrayLike, ay, az, bx, by, bz, form: int = k.FORM_REFINED) -> tuple[Int, Int]:
-    """(x, range): 1 - cos of the angle between two unit vectors, U2.20, and 1 where it was clamped (``shade_versine``).
+def versine(
+    ax: ArrayLike, ay, az, bx, by, bz, shift: ArrayLike = k.LOBE_FINE, form: int = k.FORM_REFINED
+) -> tuple[Int, Int]:
+    """(x, range): 1 - cos of the angle between two unit vectors, U2.26, and 1 where it was clamped (``shade_versine``).
 
-    Refined: |a - b|^2 / 2, differences saturated to S1.16. Paper: 1 - a . b. Exact sum, rounded once, to nearest, ties
-    up, then clamped to [0, 2].
+    Refined: |a - b|^2 / 2, differences saturated to S1.16. Paper: 1 - a . b. Exact sum and half a last place of the
+    bits that count, of which 20 + ``shift`` are fraction bits (20 for LOBE_FINE): cut behind these, as a lobe of that
+    shift does, x is rounded to nearest, ties up. What is outside [0, 2] then is clamped.
 
-    >>> [int(v) for v in versine(0, 0, 65536, 39322, 0, 52429)]  # 0.2, cosine 0.8
-    [209718, 0]
+    >>> [int(v) for v in versine(0, 0, 65536, 39322, 0, 52429)]  # 0.2, cosine 0.8; cut: 209718
+    [13421960, 0]
     """
-    v = integers(ax, ay, az, bx, by, bz)
+    *v, shift = integers(ax, ay, az, bx, by, bz, shift)
     a, b = v[:3], v[3:]
     if form == k.FORM_REFINED:
-        chord = sum(limit(p - q) ** 2 for p, q in zip(a, b, strict=True))
-        x = round(chord, 2 * k.INTENSITY_F + 1 - k.VERSINE_F)
+        total = sum(limit(p - q) ** 2 for p, q in zip(a, b, strict=True))
     else:
-        dot = sum(p * q for p, q in zip(a, b, strict=True))
-        x = round(ONE * ONE - dot, 2 * k.INTENSITY_F - k.VERSINE_F)
-    return clamp(x, k.VERSINE_F + 1)
+        total = ONE * ONE - sum(p * q for p, q in zip(a, b, strict=True))
+    drop = 2 * k.INTENSITY_F + (form == k.FORM_REFINED) - k.VERSINE_F
+    half = 1 << drop + k.VERSINE_CUT - 1 - np.where(shift == k.LOBE_FINE, 0, shift)
+    x = total + half >> drop
+    clamped, outside = clamp(x >> k.VERSINE_CUT, k.VERSINE_F - k.VERSINE_CUT + 1)
+    two = clamped >> k.VERSINE_F - k.VERSINE_CUT + 1  # it has no more bits
+    return np.where(outside | two, clamped << k.VERSINE_CUT, x), outside
 
 
 def reflect(nx: ArrayLike, ny, nz, lx, ly, lz) -> tuple[Int, Int, Int]:
@@ -102,7 +108,7 @@ def geometry(
 ) -> tuple[Int, Int, Int, Int]:
     """g = num (1 + w) 2^e, by which a model multiplies its lobe, and 1 for a zero denominator (``shade_geometry``).
 
-    x U2.20 is the versine of the lobe, nh = 1 - x, not below 0; nl, nv, vh U1.16:
+    x U2.26 is the versine of the lobe, cut to U2.20; nh = 1 - x, not below 0; nl, nv, vh U1.16:
 
         Phong, Blinn    1, with ``cosine`` nl
         Schlick         r / (x 2^inv_n_exp + r), r = nh inv_n: the rational lobe itself, 1/n = inv_n 2^-inv_n_exp
@@ -118,14 +124,16 @@ def geometry(
     """
     model, x, nl, nv, vh, cosine, inv_n, inv_n_exp = integers(model, x, nl, nv, vh, cosine, inv_n, inv_n_exp)
     schlick, cook, ward = (model == code for code in (k.MODEL_SCHLICK, k.MODEL_COOK_TORRANCE, k.MODEL_WARD))
-    nh = np.maximum(round((1 << k.VERSINE_F) - x, k.VERSINE_F - k.INTENSITY_F), 0)
+    x_f = k.VERSINE_F - k.VERSINE_CUT
+    x = x >> k.VERSINE_CUT
+    nh = np.maximum(round((1 << x_f) - x, x_f - k.INTENSITY_F), 0)
     large, small = np.maximum(nl, nv), np.minimum(nl, nv)
     product = nh * np.where(schlick, inv_n, small)
     r = round(product, k.INTENSITY_F)
     masked = cook & (small > 0) & (2 * product < vh << k.INTENSITY_F)  # facets hide each other's light
 
-    x = np.minimum(x, (2 << k.VERSINE_F) - 1)
-    rational = (x << inv_n_exp) + (r << k.VERSINE_F - k.INTENSITY_F)
+    x = np.minimum(x, (2 << x_f) - 1)
+    rational = (x << inv_n_exp) + (r << x_f - k.INTENSITY_F)
     den = np.where(schlick, rational, large * np.where(masked, vh, small))
     zero = (schlick | cook | ward) & (den == 0)
 
@@ -137,7 +145,7 @@ def geometry(
     twice = square < -one * one // 2
     inverse = round(np.where(twice, 2 * square + one * one, square), k.FACTOR_F)
 
-    den_f = np.where(schlick, k.VERSINE_F, 2 * k.INTENSITY_F)
+    den_f = np.where(schlick, x_f, 2 * k.INTENSITY_F)
     w = np.select([ward, schlick | cook], [d, inverse], 0)
     exponent = np.select([ward, schlick | cook], [den_f // 2 - e, den_f - 2 * e - twice + masked], 0)
     plain = (model == k.MODEL_PHONG) | (model == k.MODEL_BLINN)
@@ -165,11 +173,11 @@ def gain(lobe: ArrayLike, num, w, e, fresnel, gain, gain_exp) -> tuple[Int, Int]
 def lobe(
     x: ArrayLike, k1: ArrayLike, k2: ArrayLike, shift: ArrayLike, xmax: ArrayLike, power: ArrayLike, stages: int = 4
 ) -> Int:
-    """max(0, 1 - k1 x + k2 x^2)^(2^power), U1.16, of a versine x, U2.20; 0 for x > 1 (``shade_lobe``).
+    """max(0, 1 - k1 x + k2 x^2)^(2^power), U1.16, of a versine x, U2.26; 0 for x > 1 (``shade_lobe``).
 
-    X = min(x 2^shift, xmax), U1.20, is what k1, U1.20, and k2, S0.17, belong to: those of x, divided by 2^shift and
-    4^shift. shift = LOBE_FINE: X = x, k1 and k2 are those of x times 4 (below 1/2 and 1/4). ``stages`` are built for
-    the squarings (POWER): more than these count as these.
+    X = min(x 2^shift, xmax), cut to U1.20, is what k1, U1.20, and k2, S0.17, belong to: those of x, divided by 2^shift
+    and 4^shift. shift = LOBE_FINE: X = x, k1 and k2 are those of x times 4 (below 1/2 and 1/4). ``stages`` are built
+    for the squarings (POWER): more than these count as these.
 
     y = s X with s = k1 - k2 X, U1.18, is 1 - base, U1.22, which is squared as y <- 2 y - y^2, from 1/2 on as
     y <- 1 - (1 - y)^2: always a number z < 1/2, of which 17 fraction bits and the middle of the rest are kept. Of X the
@@ -177,13 +185,14 @@ def lobe(
     leading ones. Roundings to nearest, ties up. Within 1.5 ulp of the formula of these arguments, 1.2 for k2 >= 0, for
     registers as ``golden.material.lobe_registers`` gives them: xmax not beyond the vertex, the least shift.
 
-    >>> int(lobe(1 << 17, 1 << 20, 1 << 15, 1, 131071, 4))  # k1 = 2, k2 = 1: (1 - 1/8)^32 = 0.0139, 914
+    >>> int(lobe(1 << 23, 1 << 20, 1 << 15, 1, 131071, 4))  # k1 = 2, k2 = 1: (1 - 1/8)^32 = 0.0139, 914
     914
     """
     x, shift, xmax = integers(x, shift, xmax)
     fine = shift == k.LOBE_FINE
-    scaled = np.minimum(x << np.where(fine, 0, shift), xmax << k.LOBE_SCALED_F - k.LOBE_X_F)
-    return lobe_scaled(scaled, x > 1 << k.VERSINE_F, k1, k2, fine, power, stages)
+    scaled = x << np.where(fine, 0, shift) >> k.VERSINE_CUT
+    scaled = np.minimum(scaled, xmax << k.LOBE_SCALED_F - k.LOBE_X_F)
+    return lobe_scaled(scaled, x >> k.VERSINE_CUT > 1 << k.LOBE_SCALED_F, k1, k2, fine, power, stages)
 
 
 def lobe_scaled(
@@ -228,11 +237,12 @@ MATERIAL = ("model", "cosine", *LOBE, "inv_n", "inv_n_exp", "gain", "gain_exp")
 
 
 def angles(
-    mirror: ArrayLike, n: Vector, l: Vector, v: Vector, h: Vector, form: int = k.FORM_REFINED,  # noqa: E741
+    mirror: ArrayLike, n: Vector, l: Vector, v: Vector, h: Vector, shift: ArrayLike = k.LOBE_FINE,  # noqa: E741
+    form: int = k.FORM_REFINED,
 ) -> tuple[Int, ...]:  # fmt: skip
     """(diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range) of unit vectors (``shade_angles``).
 
-    diffuse = n.l, S1.16, saturated; nl, nv, U1.16: n.l, n.v clamped to [0, 1]; x, U2.20: 1 - r.v where ``mirror`` is
+    diffuse = n.l, S1.16, saturated; nl, nv, U1.16: n.l, n.v clamped to [0, 1]; x, U2.26: 1 - r.v where ``mirror`` is
     set, else 1 - n.h (:func:`versine`); ``_range``: 1 for a cosine beyond [-1, 1].
 
     >>> z = (0, 0, 65536)
@@ -243,7 +253,7 @@ def angles(
     nl, nv = dot3(*n, *l), dot3(*n, *v)
     a = (np.where(mirror, *pair) for pair in zip(reflect(*n, *l), n, strict=True))
     b = (np.where(mirror, *pair) for pair in zip(v, h, strict=True))
-    x, x_range = versine(*a, *b, form=form)
+    x, x_range = versine(*a, *b, shift, form)
     diffuse = limit(nl)
     flags = (diffuse != nl, np.abs(nl) > ONE, np.abs(nv) > ONE, x_range)
     return diffuse, clamp(nl)[0], clamp(nv)[0], x, *(flag.astype(np.int64) for flag in flags)
@@ -270,7 +280,9 @@ def reflectance(
     refused = (code > k.MODEL_WARD) | np.isin(code, left_out)
     code = np.where(refused, k.MODEL_LAMBERT, code)
 
-    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range = angles(code == k.MODEL_PHONG, n, l, v, h, form)
+    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range = angles(
+        code == k.MODEL_PHONG, n, l, v, h, of_lobe[2], form
+    )
     hx, hy, hz = integers(*h)
     lost = (code > k.MODEL_PHONG) & ((hx | hy | hz) == 0)
     shape = np.select([lost, code == k.MODEL_SCHLICK], [0, ONE], lobe(x, *of_lobe))

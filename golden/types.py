@@ -717,7 +717,7 @@ ANGLES = Struct(
         Field("diffuse", k.INTENSITY_W, "N.L, saturated", "S1.16"),
         Field("nl", k.INTENSITY_F + 1, "N.L in [0, 1]", "U1.16"),
         Field("nv", k.INTENSITY_F + 1, "N.V in [0, 1]", "U1.16"),
-        Field("x", k.VERSINE_W, "1 less the cosine that the lobe is a function of", "U2.20"),
+        Field("x", k.VERSINE_W, "1 less the cosine that the lobe is a function of", "U2.26"),
         Field("saturated", 1, "N.L was beyond its format"),
         Field("nl_range", 1, "N.L was outside [-1, 1]"),
         Field("nv_range", 1, "N.V was outside [-1, 1]"),

@@ -93,8 +93,9 @@ package shade_pkg;
   localparam int MODEL_COOK_TORRANCE = 4;  // F G D / (pi (N.L) (N.V))
   localparam int MODEL_WARD = 5;  // D / (4 pi m^2 sqrt((N.L) (N.V)))
   localparam int MODEL_W = 3;
-  localparam int VERSINE_F = 20;  // x = 1 - c of two unit vectors, U2.20 in [0, 2]
-  localparam int VERSINE_W = 22;
+  localparam int VERSINE_F = 26;  // x = 1 - c of two unit vectors, U2.26 in [0, 2]
+  localparam int VERSINE_W = 28;
+  localparam int VERSINE_CUT = 6;  // its last bits, which count where the lobe scales x up by them
   localparam int LOBE_K1_F = 20;  // k1 of the shifted x, U1.20 in [0, 2)
   localparam int LOBE_K1_W = 21;
   localparam int LOBE_K2_F = 17;  // k2 of the shifted x, S0.17
@@ -493,7 +494,7 @@ package shade_pkg;
   localparam int NODE_BITS = 95;
   localparam int INTENSITY_BITS = 36;
   localparam int FLAGS_BITS = 4;
-  localparam int ANGLES_BITS = 78;
+  localparam int ANGLES_BITS = 84;
   localparam int FACTOR_BITS = 43;
   localparam int COEF_BITS = 93;
   localparam int CONTROL_BITS = 7;
@@ -1015,7 +1016,7 @@ package shade_pkg;
     logic nv_range;  // N.V was outside [-1, 1]
     logic nl_range;  // N.L was outside [-1, 1]
     logic saturated;  // N.L was beyond its format
-    logic [21:0] x;  // U2.20: 1 less the cosine that the lobe is a function of
+    logic [27:0] x;  // U2.26: 1 less the cosine that the lobe is a function of
     logic [16:0] nv;  // U1.16: N.V in [0, 1]
     logic [16:0] nl;  // U1.16: N.L in [0, 1]
     logic signed [17:0] diffuse;  // S1.16: N.L, saturated

@@ -4,8 +4,8 @@
 //   n_i, l_i, v_i, h_i  S1.16         unit vectors; R = 2 (N.L) N - L
 //   angles_o.diffuse    S1.16         N.L, saturated; .saturated tells
 //   angles_o.nl, .nv    U1.16         N.L, N.V clamped to [0, 1]; .nl_range, .nv_range: beyond [-1, 1]
-//   angles_o.x          U2.20         mirror_i: 1 - R.V, else 1 - N.H (shade_versine); .x_range: cosine beyond [-1, 1]
-//                                     error 1/2 ulp; of R, V 41 ulp were measured, because R is rounded to S1.16
+//   angles_o.x          U2.26         mirror_i: 1 - R.V, else 1 - N.H; .x_range: cosine beyond [-1, 1]; shift_i: which bits
+//                                     count, see shade_versine. Of R, V the rounding of R to S1.16 adds to the error
 //
 // LOCAL = 0: L, V, H are settings; 1: of every node, and H is taken LATENCY_HALFWAY clocks after N, L, V. Settings and
 // mirror_i must not change while nodes are inside. REFLECT = 0: without R, mirror_i must be 0.
@@ -26,6 +26,7 @@ module shade_angles #(
   input  logic                          rst_i,
   input  logic [shade_pkg::PHASE_W-1:0] phase_i,
   input  logic                          mirror_i,
+  input  logic [shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
   input  shade_pkg::vec_t               n_i,
   input  shade_pkg::vec_t               l_i,
   input  shade_pkg::vec_t               v_i,
@@ -61,7 +62,7 @@ module shade_angles #(
     logic [F:0] cosine;
     shade_clamp u_clamp (.x_i(diffuse), .y_o(cosine), .clamped_o());
     shade_angles_folded #(.FORM(FORM), .FOLD(FOLD), .TAKE(TAKE)) u_folded (
-      .clk_i, .phase_i, .n_i, .l_i, .h_i, .nl_o(nl), .x_o(angles_o.x), .range_o(angles_o.x_range)
+      .clk_i, .phase_i, .shift_i, .n_i, .l_i, .h_i, .nl_o(nl), .x_o(angles_o.x), .range_o(angles_o.x_range)
     );
     assign angles_o.diffuse   = diffuse;
     assign angles_o.nl        = cosine;
@@ -109,7 +110,7 @@ module shade_angles #(
     end
     shade_ring #(.WIDTH($bits(a)), .DEPTH(TO_H - TO_R)) u_a (.clk_i, .rst_i, .d_i(a), .q_o(a_q));
     shade_versine #(.FORM(FORM)) u_versine (
-      .clk_i, .a_i(a_q), .b_i(b_q), .x_o(angles_o.x), .range_o(angles_o.x_range)
+      .clk_i, .shift_i, .a_i(a_q), .b_i(b_q), .x_o(angles_o.x), .range_o(angles_o.x_range)
     );
     logic unused_phase;
     assign unused_phase = &{1'b0, phase_i};

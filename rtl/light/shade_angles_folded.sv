@@ -2,7 +2,7 @@
 // shade_angles_folded: N.L and the versine of N, H with multipliers that their six products share.
 //
 //   n_i            S1.16         unit vector, taken when phase_i is TAKE
-//   l_i, h_i       S1.16         unit vectors, settings
+//   l_i, h_i       S1.16         unit vectors, settings; shift_i: see shade_versine
 //   nl_o           S4.16         N.L, rounded once, to nearest, ties up
 //   x_o, range_o                 as of shade_versine
 //
@@ -17,6 +17,7 @@ module shade_angles_folded #(
 ) (
   input  logic                                   clk_i,
   input  logic        [  shade_pkg::PHASE_W-1:0] phase_i,
+  input  logic        [shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
   input  shade_pkg::vec_t                        n_i,
   input  shade_pkg::vec_t                        l_i,
   input  shade_pkg::vec_t                        h_i,
@@ -36,9 +37,10 @@ module shade_angles_folded #(
   localparam int DOT_W = shade_pkg::DOT_W;
   localparam int DROP = 2 * F + (REFINED ? 1 : 0) - shade_pkg::VERSINE_F;
   localparam int X_W = SUM_W - DROP;
+  localparam int CUT = shade_pkg::VERSINE_CUT;
+  localparam int X_F = shade_pkg::VERSINE_F - CUT;
   localparam logic signed [SUM_W-1:0] HALF_NL = SUM_W'(1) <<< (F - 1);
-  localparam logic signed [SUM_W-1:0] HALF_X = SUM_W'(1) <<< (DROP - 1);
-  localparam logic signed [SUM_W-1:0] FIRST_X = REFINED ? HALF_X : HALF_X + (SUM_W'(1) <<< (2 * F));
+  localparam logic [shade_pkg::LOBE_SHIFT_W-1:0] FINE = shade_pkg::LOBE_SHIFT_W'(shade_pkg::LOBE_FINE);
 
   // clocks of a node in which its first product of the versine has its operands chosen, and in which the sums are there
   localparam int X_AT = FOLD == 2 ? 1 : FOLD < 6 ? 2 : 3;
@@ -51,7 +53,9 @@ module shade_angles_folded #(
     at = phase_i == shade_pkg::PHASE_W'((TAKE + c) % FOLD);
   endfunction
 
-  logic signed [SUM_W-1:0] nl_sum, x_sum;
+  logic signed [SUM_W-1:0] nl_sum, x_sum, first_x;
+  assign first_x = ((SUM_W'(1) <<< (DROP + CUT - 1)) >>> (shift_i == FINE ? '0 : shift_i)) |
+                   (REFINED ? '0 : SUM_W'(1) <<< (2 * F));
   if (FOLD == 2) begin : g_components
     logic signed [SUM_W-1:0] xy_q, z_q;
     logic [2:0][W-1:0] n, l, h;
@@ -72,7 +76,7 @@ module shade_angles_folded #(
     end
     always_ff @(posedge clk_i) begin
       xy_q    <= SUM_W'($signed(p[0])) + SUM_W'($signed(p[1]));
-      z_q     <= (at(3) ? HALF_NL : FIRST_X) + (minus ? -SUM_W'($signed(p[2])) : SUM_W'($signed(p[2])));
+      z_q     <= (at(3) ? HALF_NL : first_x) + (minus ? -SUM_W'($signed(p[2])) : SUM_W'($signed(p[2])));
       minus_q <= minus;
     end
     assign nl_sum = minus_q ? z_q - xy_q : z_q + xy_q;
@@ -109,7 +113,7 @@ module shade_angles_folded #(
       end
       shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(p));
       assign starts = (NL && at(3)) || (X && at(X_AT + 3));
-      assign first  = NL && (!X || at(3)) ? HALF_NL : FIRST_X;
+      assign first  = NL && (!X || at(3)) ? HALF_NL : first_x;
       assign minus  = !REFINED && X && (at(X_AT + 3) || at(X_AT + 4) || at(X_AT + 5));
       assign term   = minus ? -(SUM_W'(p)) : SUM_W'(p);
       always_ff @(posedge clk_i) sum_q[m] <= (starts ? first : $signed(sum_q[m])) + term;
@@ -121,13 +125,18 @@ module shade_angles_folded #(
   // ---- N.L; x into its range -------------------------------------------------------------------------------------
   logic signed [DOT_W-1:0] nl_q;
   logic signed [X_W-1:0] far_q;
-  logic [shade_pkg::VERSINE_W-1:0] x, x_q;
+  logic [X_F+1:0] clamped;
+  logic [CUT-1:0] last;
+  logic [shade_pkg::VERSINE_W-1:0] x_q;
   logic range, range_q;
-  shade_clamp #(.WIDTH(X_W), .F(shade_pkg::VERSINE_F + 1)) u_clamp (.x_i(far_q), .y_o(x), .clamped_o(range));
+  assign last = CUT'(far_q);
+  shade_clamp #(.WIDTH(X_W - CUT), .F(X_F + 1)) u_clamp (
+    .x_i((X_W - CUT)'(far_q >>> CUT)), .y_o(clamped), .clamped_o(range)
+  );
   always_ff @(posedge clk_i) begin
     if (at(NL_DONE)) nl_q <= DOT_W'(nl_sum >>> F);
     if (at(X_DONE)) far_q <= X_W'(x_sum >>> DROP);
-    if (at(X_DONE + 1)) {range_q, x_q} <= {range, x};
+    if (at(X_DONE + 1)) {range_q, x_q} <= {range, clamped, range || clamped[X_F+1] ? '0 : last};
   end
   shade_hold #(.WIDTH(DOT_W), .DEPTH(LATENCY - NL_DONE - 1), .FOLD(FOLD)) u_nl (
     .clk_i, .load_i(at(NL_DONE)), .d_i(nl_q), .q_o(nl_o)

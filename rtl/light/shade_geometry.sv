@@ -8,7 +8,7 @@
 //   Ward            1 / sqrt(large small)
 //   others, den = 0 (factor_o.zero)   0
 //
-//   angles_i.x       d.ffff f          U2.20, the versine of N and H: N.H = 1 - x rounded to U1.16, not below 0
+//   angles_i.x       d.ffff f          U2.26, cut to U2.20, the versine of N and H: N.H = 1 - x rounded to U1.16, not below 0
 //   den                                exact (x = 2 counts as 2 - 2^-20): U2.32, of Schlick U16.20; 36 bits
 //   1/sqrt(den)                        (1 + d) 2^-.. by shade_rsqrt, d S0.18; its square is 1/den, doubled if below 1/2
 //   factor_o.num     d.ffff            U1.16: 1, N.L, r or N.H; r rounded to nearest
@@ -29,8 +29,8 @@ module shade_geometry (
 );
   localparam int F = shade_pkg::INTENSITY_F;
   localparam int C_W = F + 1;
-  localparam int X_F = shade_pkg::VERSINE_F;
-  localparam int X_W = shade_pkg::VERSINE_W;
+  localparam int X_F = shade_pkg::VERSINE_F - shade_pkg::VERSINE_CUT;
+  localparam int X_W = X_F + 2;
   localparam int W_F = shade_pkg::FACTOR_F;
   localparam int E_W = shade_pkg::FACTOR_EXP_W;
   localparam int Z_W = shade_pkg::RSQRT_W;
@@ -40,7 +40,7 @@ module shade_geometry (
   localparam logic [C_W-1:0] ONE = C_W'(1) << F;
 
   logic [X_W-1:0] x;
-  assign x = angles_i.x;
+  assign x = X_W'(angles_i.x >> shade_pkg::VERSINE_CUT);
   logic schlick, cook, ward, plain, divides;
   assign schlick = material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_SCHLICK);
   assign cook    = material_i.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_COOK_TORRANCE);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_lobe: max(0, 1 - k1 x + k2 x^2)^(2^power), the highlight of every model, over x = 1 - c, the versine of an angle.
 //
-//   x_i      dd.ffff f         U2.20   1 - c; beyond 1 (c < 0) the lobe is 0
-//   lobe_i.shift  0 .. 6               X = min(x 2^shift, xmax), U1.20, is what k1 and k2 belong to:
+//   x_i      dd.ffff ff        U2.26   1 - c; beyond 1 (c < 0), cut to U2.20, the lobe is 0
+//   lobe_i.shift  0 .. 6               X = min(x 2^shift, xmax), cut to U1.20, is what k1, k2 belong to:
 //   lobe_i.k1     d.ffff f     U1.20   k1 / 2^shift
 //   lobe_i.k2     s.ffff       S0.17   k2 / 4^shift; 0 is the form of P1 and P3
 //   lobe_i.xmax   d.ffff       U1.16   where a parabola that opens upwards has its vertex, k1 / (2 k2)
@@ -20,7 +20,7 @@
 //
 // Near the peak of the lobe y is small, and so is its error, which the power multiplies by 2^power. Roundings to
 // nearest, ties up. For registers as golden.material.lobe_registers gives them (the least shift; xmax not beyond the
-// vertex) within 1.5 ulp of the formula of the inputs for every x, within 1.2 ulp for k2 >= 0, which all fits with power 4
+// vertex) within 1.5 ulp of the formula of the inputs for every x of 20 + shift fraction bits, within 1.2 ulp for k2 >= 0, which all fits with power 4
 // have but for the broadest. n = 1 .. 1024, with POWER, the stages that are built, less than 4 up to 96 2^POWER.
 //
 // lobe_i must stay as it is while values are in flight.
@@ -59,16 +59,19 @@ module shade_lobe #(
   localparam int X_F = shade_lobe_pkg::X_F;
   localparam int X_W = shade_lobe_pkg::X_W;
   localparam int LAST_W = shade_lobe_pkg::X_F - shade_lobe_pkg::FIRST_F;
-  localparam int WIDE_W = shade_pkg::VERSINE_W + shade_pkg::LOBE_FINE - 1;
+  localparam int CUT = shade_pkg::VERSINE_CUT;
+  localparam int WIDE_W = shade_pkg::VERSINE_W + shade_pkg::LOBE_FINE - 1;  // of x 2^shift, CUT more than are needed
   logic fine, over_q2, dark_q1, dark_q2;  // dark: c < 0
-  logic [WIDE_W-1:0] wide_q1;
+  logic [WIDE_W-1:0] wide;
+  logic [WIDE_W-CUT-1:0] wide_q1;
   logic [X_W-1:0] x_q2, x;
   assign fine = lobe_i.shift == shade_pkg::LOBE_SHIFT_W'(shade_pkg::LOBE_FINE);
+  assign wide = WIDE_W'(x_i) << (fine ? '0 : lobe_i.shift);
   always_ff @(posedge clk_i) begin
-    wide_q1 <= WIDE_W'(x_i) << (fine ? '0 : lobe_i.shift);
+    wide_q1 <= (WIDE_W - CUT)'(wide >> CUT);
     x_q2    <= X_W'(wide_q1);
-    over_q2 <= (wide_q1 >> LAST_W) >= WIDE_W'(lobe_i.xmax);
-    dark_q1 <= x_i > shade_pkg::VERSINE_W'(1) << X_F;
+    over_q2 <= (wide_q1 >> LAST_W) >= (WIDE_W - CUT)'(lobe_i.xmax);
+    dark_q1 <= x_i >> CUT > shade_pkg::VERSINE_W'(1) << X_F;
     dark_q2 <= dark_q1;
   end
   assign x = over_q2 ? {lobe_i.xmax, {LAST_W{1'b0}}} : x_q2;

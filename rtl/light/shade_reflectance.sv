@@ -90,7 +90,8 @@ module shade_reflectance #(
   logic [C_W-1:0] vh;
   logic lost, lost_late, outside;  // lost: no H
   shade_angles #(.FORM(FORM), .REFLECT(REFLECT), .LOCAL(LOCAL), .FOLD(FOLD), .TAKE(TAKE)) u_angles (
-    .clk_i, .rst_i, .phase_i, .mirror_i(phong && REFLECT != 0), .n_i, .l_i, .v_i, .h_i, .angles_o(angles)
+    .clk_i, .rst_i, .phase_i, .mirror_i(phong && REFLECT != 0),
+    .shift_i(material.lobe.shift), .n_i, .l_i, .v_i, .h_i, .angles_o(angles)
   );
   shade_ring #(.WIDTH(C_W), .DEPTH(LOCAL != 0 ? FROM_H : 0)) u_vh (.clk_i, .rst_i, .d_i(vh_i), .q_o(vh));
   assign lost    = uses_h && h_i == '0;

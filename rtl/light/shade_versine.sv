@@ -7,8 +7,10 @@
 //   a_i, b_i       sd.ffff              S1.16
 //   a - b         sdd.ffff              saturated to S1.16 (beyond 2 only for vectors longer than 1)
 //   products       36 bits, exact       three 18 x 18 multipliers, squares of the differences or a_i b_i
-//   x_o             d.ffff f            U2.20, rounded once, to nearest, ties up, and clamped to [0, 2]: error 1/2 ulp
-//   range_o                             the rounded x was outside [0, 2], the cosine outside [-1, 1]
+//   shift_i        0 .. 6, LOBE_FINE: 0    the lobe's; 20 + shift fraction bits of x count
+//   x_o            dd.ffff ff           U2.26: the sum and half a last place of those that count: cut behind them it is
+//                                       rounded to nearest, ties up, error 1/2 of such a place; clamped to [0, 2]
+//   range_o                             x cut to U2.20 was outside [0, 2], the cosine outside [-1, 1]
 //
 // Opposite axes give 2 - 2^-15 + 2^-33 in the refined form, because 2 saturates.
 // Latency LATENCY_VERSINE = 6 clocks, one value a clock. Source: P1's and P3's cos, by its complement.
@@ -16,11 +18,12 @@
 module shade_versine #(
   parameter int FORM = shade_pkg::FORM_REFINED
 ) (
-  input  logic                            clk_i,
-  input  shade_pkg::vec_t                 a_i,
-  input  shade_pkg::vec_t                 b_i,
-  output logic [shade_pkg::VERSINE_W-1:0] x_o,
-  output logic                            range_o
+  input  logic                               clk_i,
+  input  logic [shade_pkg::LOBE_SHIFT_W-1:0] shift_i,
+  input  shade_pkg::vec_t                    a_i,
+  input  shade_pkg::vec_t                    b_i,
+  output logic [   shade_pkg::VERSINE_W-1:0] x_o,
+  output logic                               range_o
 );
   if (FORM != shade_pkg::FORM_PAPER && FORM != shade_pkg::FORM_REFINED) begin : g_check
     $error("shade_versine: FORM must be FORM_PAPER or FORM_REFINED");
@@ -56,22 +59,29 @@ module shade_versine #(
   localparam int SUM_W = P_W + 3;
   localparam int DROP = P_F + (REFINED ? 1 : 0) - shade_pkg::VERSINE_F;
   localparam int X_W = SUM_W - DROP;
-  localparam logic signed [SUM_W-1:0] HALF = SUM_W'(1) <<< (DROP - 1);
+  localparam int CUT = shade_pkg::VERSINE_CUT;
+  localparam int X_F = shade_pkg::VERSINE_F - CUT;
   localparam logic signed [SUM_W-1:0] ONE = SUM_W'(1) <<< P_F;
-  logic signed [SUM_W-1:0] x, y, z, xy_q4, z_q4, sum;
+  localparam logic [shade_pkg::LOBE_SHIFT_W-1:0] FINE = shade_pkg::LOBE_SHIFT_W'(shade_pkg::LOBE_FINE);
+  logic signed [SUM_W-1:0] x, y, z, xy_q4, z_q4, sum, half;
   logic signed [X_W-1:0] x_q5;
-  logic [shade_pkg::VERSINE_W-1:0] clamped;
+  logic [X_F+1:0] clamped;
+  logic [CUT-1:0] last;
   logic outside;
   assign x   = SUM_W'($signed(product_q3[0]));
   assign y   = SUM_W'($signed(product_q3[1]));
   assign z   = SUM_W'($signed(product_q3[2]));
   assign sum = REFINED ? z_q4 + xy_q4 : z_q4 - xy_q4;
-  shade_clamp #(.WIDTH(X_W), .F(shade_pkg::VERSINE_F + 1)) u_clamp (.x_i(x_q5), .y_o(clamped), .clamped_o(outside));
+  assign half = (SUM_W'(1) <<< (DROP + CUT - 1)) >>> (shift_i == FINE ? '0 : shift_i);
+  assign last = CUT'(x_q5);
+  shade_clamp #(.WIDTH(X_W - CUT), .F(X_F + 1)) u_clamp (
+    .x_i((X_W - CUT)'(x_q5 >>> CUT)), .y_o(clamped), .clamped_o(outside)
+  );
   always_ff @(posedge clk_i) begin
     xy_q4   <= x + y;
-    z_q4    <= REFINED ? HALF + z : HALF + ONE - z;
+    z_q4    <= REFINED ? half + z : half + ONE - z;
     x_q5    <= X_W'(sum >>> DROP);
-    x_o     <= clamped;
+    x_o     <= {clamped, outside || clamped[X_F+1] ? '0 : last};
     range_o <= outside;
   end
 endmodule

@@ -103,6 +103,11 @@ def _slope(x: np.ndarray, material_: dict[str, int]) -> np.ndarray:
     return np.where((x > limit) | (x > 1), 0, slope)
 
 
+def reflection_error(n: np.ndarray, along: np.ndarray) -> np.ndarray:
+    """How far R's rounding can take R . along, in ulp: m's half ulp times N, and a half in each component."""
+    return (np.abs(total(n, along)) + np.abs(along).sum(axis=0)) / 2
+
+
 def allowed(
     code: int, material_: dict[str, int], n, l, v, h, vh, fresnel, form: str, f0: int | None = None,  # noqa: E741
 ) -> np.ndarray:  # fmt: skip
@@ -121,7 +126,7 @@ def allowed(
     dx = np.ldexp(1.0, k.INTENSITY_F - 1 - min(k.LOBE_SCALED_F + shift, k.VERSINE_F))
     if code == k.MODEL_PHONG:
         along = t.chord if refined else t.b
-        dx = dx + np.abs(total(t.n, along)) / 2 + np.abs(along).sum(axis=0) / 2
+        dx = dx + reflection_error(t.n, along)
     elif local:
         dx = dx + 5 / 8 * np.abs(t.chord if refined else t.n).sum(axis=0)
     nearer = (t.x - dx / ONE).clip(0)

@@ -15,6 +15,22 @@ from polyshade.sim.units.normal import arcs
 
 LIMITS = signed_range(k.INTENSITY_W)
 FEW = 6_250  # vectors of a run, of which each has settings of its own
+SHIFTS = range(k.LOBE_FINE + 1)
+
+
+def unused(shift: int) -> int:
+    """The last bits of a versine that do not count for a lobe of this shift."""
+    return k.VERSINE_CUT - (0 if shift == k.LOBE_FINE else shift)
+
+
+def cut(x: np.ndarray, shift: int) -> np.ndarray:
+    """A versine without them."""
+    return x >> unused(shift) << unused(shift)
+
+
+def in_places(x: np.ndarray, exact: np.ndarray, shift: int) -> np.ndarray:
+    """What stands for the exact versine, a number, where the error of x counts in last places that count."""
+    return x + (np.ldexp(exact, k.VERSINE_F) - cut(x, shift)) / (1 << unused(shift))
 
 
 def directions(names: str) -> Callable[[np.random.Generator, int], Arrays]:
@@ -36,15 +52,22 @@ def _two(i: Arrays) -> tuple[np.ndarray, np.ndarray]:
 def _versine(form: str) -> Iterator[Case]:
     """1 - cos of an angle; ideal: of the true angle, where that is acute, of unit vectors but for their rounding."""
 
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        return directions("ab")(rng, rows) | {"shift_i": np.full(rows, rng.choice(SHIFTS))}
+
     def golden(i: Arrays) -> Arrays:
         return dict(zip(("x_o", "range_o"), light.versine(*i.values(), form=FORMS[form]), strict=True))
+
+    def versine(i: Arrays, x: np.ndarray) -> Arrays:
+        values = golden(i)
+        return values | {"x_o": in_places(values["x_o"], x, int(i["shift_i"][0]))}
 
     def exact(i: Arrays) -> Arrays:
         a, b = _two(i)
         low, high = LIMITS
         chord = (((a - b) * ONE).clip(low, high) / ONE) ** 2
         x = chord.sum(axis=0) / 2 if form == "refined" else 1 - (a * b).sum(axis=0)
-        return golden(i) | {"x_o": np.ldexp(x.clip(0, 2), k.VERSINE_F)}
+        return versine(i, x.clip(0, 2))
 
     def ideal(i: Arrays) -> Arrays:
         a, b = _two(i)
@@ -52,12 +75,11 @@ def _versine(form: str) -> Iterator[Case]:
         unit = np.all([np.abs(length - 1) < 1 / ONE for length in lengths], axis=0)
         a, b = (v / np.where(unit, length, 1) for v, length in zip((a, b), lengths, strict=True))
         x = ((a - b) ** 2).sum(axis=0) / 2
-        values = exact(i)
-        return values | {"x_o": np.where(unit & (x <= 1), np.ldexp(x, k.VERSINE_F), values["x_o"])}
+        return golden(i) | {"x_o": np.where(unit & (x <= 1), versine(i, x)["x_o"], exact(i)["x_o"])}
 
     yield Case(
-        "shade_versine", form, {"FORM": FORMS[form]}, golden, exact, ideal, directions("ab"), None, k.LATENCY_VERSINE,
-        unit_f=k.VERSINE_F,
+        "shade_versine", form, {"FORM": FORMS[form]}, golden, exact, ideal, vectors, None, k.LATENCY_VERSINE,
+        unit_f=k.VERSINE_F - k.VERSINE_CUT, chunk=FEW,
     )  # fmt: skip
 
 
@@ -141,7 +163,7 @@ def _lobe(form: str) -> Iterator[Case]:
     """Highlights from the broadest to the sharpest, and any registers that ``lobe_registers`` gives.
 
     Registers stay as they are while values are in flight, so each run has its own. Of every stage and fold values of
-    every size for each highlight; with all stages and unfolded every versine there is for some of them.
+    every size for each highlight; with all stages and unfolded every versine of 20 fraction bits for some of them.
     """
     one, most = 1 << k.VERSINE_F, 2 << k.VERSINE_F
 
@@ -151,8 +173,8 @@ def _lobe(form: str) -> Iterator[Case]:
 
     def some(rng: np.random.Generator, rows: int) -> np.ndarray:
         """Versines of every size, all the smallest ones, and around 1 and 2."""
-        x = rng.integers(0, most, rows, endpoint=True) >> np.maximum(rng.integers(-2, 19, rows), 0)
-        x[:96] = np.r_[np.arange(64), one + np.arange(-8, 8), most - np.arange(16)][:rows]
+        x = rng.integers(0, most, rows, endpoint=True) >> np.maximum(rng.integers(-2, 25, rows), 0)
+        x[:96] = np.r_[np.arange(64), one + (np.arange(-8, 8) << 3), most - np.arange(16)][:rows]
         return x
 
     def case(stages: int, fold: int, note: str, vectors: Callable, more: Callable | None = None) -> Case:
@@ -163,8 +185,10 @@ def _lobe(form: str) -> Iterator[Case]:
             return {"lobe_o": light.lobe(i["x_i"], *registers(i), stages)}
 
         def exact(i: Arrays) -> Arrays:
-            *k12, power = registers(i)
-            return {"lobe_o": exact_lobe(i["x_i"], *k12, min(power, stages)) * ONE}
+            k1, k2, shift, xmax, power = registers(i)
+            x, edge = cut(i["x_i"], shift), one + (1 << k.VERSINE_CUT)
+            x = np.where((x > one) & (x < edge), one, x)  # cut to 20 fraction bits it is not beyond 1
+            return {"lobe_o": exact_lobe(x, k1, k2, shift, xmax, min(power, stages)) * ONE}
 
         def ideal(i: Arrays) -> Arrays:
             """The highlight that the registers stand for."""
@@ -212,7 +236,7 @@ def _lobe(form: str) -> Iterator[Case]:
             return inputs(np.where(rng.random(rows) < 0.5, rng.integers(0, steep + 1, rows), x), tuple(words.values()))
 
     if form == "refined":
-        yield case(4, 1, "every versine", of(4, 8, lambda rng: np.arange(most + 1)))
+        yield case(4, 1, "every versine", of(4, 8, lambda rng: np.arange(0, most + 1, 1 << k.VERSINE_CUT)))
         yield case(4, 1, "any registers", None, any_registers)
         unmeasured = case(4, 1, "wild registers", None, wild)
         yield replace(unmeasured, exact=unmeasured.golden, ideal=unmeasured.golden)

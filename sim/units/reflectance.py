@@ -23,9 +23,10 @@ from polyshade.sim.units.exact_light import (
     in_units,
     outputs,
     quotients,
+    reflection_error,
     total,
 )
-from polyshade.sim.units.light import FEW
+from polyshade.sim.units.light import FEW, SHIFTS, in_places, unused
 from polyshade.sim.units.normal import unit_vectors
 
 CHUNK = 25_000
@@ -123,10 +124,11 @@ def _angles(form: str) -> Iterator[Case]:
         l, v = unit_vectors(rng, 2 * rows).reshape(3, 2, rows).swapaxes(0, 1) if local else unit_vectors(rng, 2).T  # noqa: E741
         h = light.halfway(*l, *v)[:3]
         named = {name: np.reshape(u, (3, -1)) for name, u in zip("lvh", (l, v, h), strict=True)}
-        return ports(rows, mirror=int(rng.integers(0, 2)) & reflect, n=normals(rng, rows, l, v, h), **named)
+        settings = {"mirror": int(rng.integers(0, 2)) & reflect, "shift": int(rng.choice(SHIFTS))}
+        return ports(rows, **settings, n=normals(rng, rows, l, v, h), **named)
 
     def golden(i: Arrays) -> Arrays:
-        values = light.angles(i["mirror_i"], *(vector(i, name) for name in "nlvh"), FORMS[form])
+        values = light.angles(i["mirror_i"], *(vector(i, name) for name in "nlvh"), i["shift_i"], FORMS[form])
         return dict(zip(names, values, strict=True))
 
     def exact(i: Arrays) -> Arrays:
@@ -137,30 +139,40 @@ def _angles(form: str) -> Iterator[Case]:
         chord = ((a - b).clip(*LIMITS) ** 2).sum(axis=0) / 2
         x = chord if form == "refined" else Real(ONE) ** 2 - total(a, b)
         cosines = [cosine(n, l) * ONE, *((total(n, other) / ONE).clip(0, ONE) for other in (l, v))]
-        x = np.ldexp(x, k.VERSINE_F - 2 * k.INTENSITY_F).clip(0, 2 << k.VERSINE_F)
-        return golden(i) | dict(zip(names, (*cosines, x), strict=False))
+        values = golden(i)
+        x = in_places(values["angles_o.x"], (x / ONE**2).clip(0, 2), int(i["shift_i"][0]))
+        return values | dict(zip(names, (*cosines, x), strict=False))
 
+    def tolerance(i: Arrays) -> Arrays:
+        """1/2; of R, V what R's rounding makes, in last places of x that count."""
+        n, l, v = (vector(i, name).astype(Real) / ONE for name in "nlv")  # noqa: E741
+        along = (2 * total(n, l)).clip(-LIMITS[1] / ONE, 2) * n - l - (v if form == "refined" else 0)
+        of_r = reflection_error(n, along.clip(-2, 2) if form == "refined" else v)
+        places = np.ldexp(of_r * (1 + 2.0**-10), k.VERSINE_F - k.INTENSITY_F - unused(int(i["shift_i"][0])))
+        return dict.fromkeys(names[:3], 1 / 2) | {"angles_o.x": 1 / 2 + np.where(i["mirror_i"], places, 0)}
+
+    places = dict.fromkeys(("angles_o.x", "x_o"), k.VERSINE_F - k.VERSINE_CUT)
     for reflect, local in ((1, 0), (0, 0), (1, 1), (0, 1)):
         latency = k.LATENCY_ANGLES - (not reflect) * k.LATENCY_REFLECT
         yield Case(
             "shade_angles", form, {"FORM": FORMS[form], "REFLECT": reflect, "LOCAL": local}, golden, exact, exact,
             lambda rng, rows, local=local, reflect=reflect: vectors(rng, rows, local, reflect), None,
             k.LATENCY_HALFWAY + 1 + k.LATENCY_VERSINE if local else latency,
-            late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f={"angles_o.x": k.VERSINE_F}, chunk=CHUNK,
-            bound=64 if reflect else 1 / 2,  # of R, V: R's 1.5 ulp of S1.16 in three components, times |R - V|
+            late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f=places, chunk=CHUNK, tolerance=tolerance,
         )  # fmt: skip
 
     def without_nv(of: Callable[[Arrays], Arrays]) -> Callable[[Arrays], Arrays]:
         return lambda i: of(i) | dict.fromkeys(("angles_o.nv", "angles_o.nv_range"), np.zeros_like(i["n_i.x"]))
 
     def of_h(rng: np.random.Generator, rows: int) -> Arrays:
-        return {name: value for name, value in vectors(rng, rows, 0, 0).items() if name[0] in "nlh"}
+        return {name: value for name, value in vectors(rng, rows, 0, 0).items() if name[0] in "nlhs"}
 
     def folded(of: Callable[[Arrays], Arrays]) -> Callable[[Arrays], Arrays]:
         """N.L before it is limited."""
 
         def value(i: Arrays) -> Arrays:
-            nl = normal.dot3(*vector(i, "n"), *vector(i, "l"))
+            n, l = vector(i, "n"), vector(i, "l")  # noqa: E741
+            nl = normal.dot3(*n, *l) if of is golden else total(n.astype(Real), l) / ONE
             still = {"mirror_i": np.zeros(1, np.int64)} | {f"v_i.{c}": np.zeros(1, np.int64) for c in "xyz"}
             values = of(i | still)
             return {"nl_o": nl, "x_o": values["angles_o.x"], "range_o": values["angles_o.x_range"]}
@@ -172,11 +184,11 @@ def _angles(form: str) -> Iterator[Case]:
         yield Case(
             "shade_angles", form, point | {"REFLECT": 0}, without_nv(golden), without_nv(exact), without_nv(exact),
             lambda rng, rows: vectors(rng, rows, 0, 0), None, k.LATENCY_ANGLES_FOLDED, fold,
-            more_f={"angles_o.x": k.VERSINE_F}, chunk=CHUNK,
+            more_f=places, chunk=CHUNK,
         )  # fmt: skip
         yield Case(
             "shade_angles_folded", form, point, folded(golden), folded(exact), folded(exact), of_h, None,
-            k.LATENCY_ANGLES_FOLDED, fold, more_f={"x_o": k.VERSINE_F}, chunk=CHUNK,
+            k.LATENCY_ANGLES_FOLDED, fold, more_f=places, chunk=CHUNK,
         )  # fmt: skip
 
 
@@ -214,8 +226,9 @@ def _factors(form: str) -> Iterator[Case]:
         """num such that num (1 + w) 2^e is the exact g; the other outputs as they are."""
         golden = geometry(i)
         settings = words(i)
-        x, *cosines = (value.astype(Real) for value in arguments(i))
-        numbers = (np.ldexp(x, -k.VERSINE_F), *(c / ONE for c in cosines))
+        x, *cosines = arguments(i)
+        x = x >> k.VERSINE_CUT << k.VERSINE_CUT
+        numbers = (np.ldexp(x.astype(Real), -k.VERSINE_F), *(c.astype(Real) / ONE for c in cosines))
         g = quotients(settings["model"], *numbers, *(settings[name] for name in ("cosine", "inv_n", "inv_n_exp")))
         w, e, zero = (golden[f"factor_o.{name}"] for name in ("w", "e", "zero"))
         scale = np.ldexp(1 + np.ldexp(w.astype(Real), -k.FACTOR_F), e)

@@ -10,7 +10,14 @@ from polyshade.golden import light
 from polyshade.golden.fixed import ONE
 
 AXES = np.eye(3, dtype=int) * ONE
-TWO = 2 << k.VERSINE_F  # x of opposite vectors
+CUT = k.VERSINE_CUT
+TWO = 2 << k.VERSINE_F - CUT  # x of opposite vectors, U2.20
+
+
+def versine(*vectors: int, form: int = k.FORM_REFINED) -> list[int]:
+    """x, cut to U2.20, and its range."""
+    x, told = light.versine(*vectors, form=form)
+    return [int(x) >> CUT, int(told)]
 
 
 def ints(values) -> list[int]:
@@ -21,22 +28,32 @@ def ints(values) -> list[int]:
 def test_versine_of_axes(form: int, opposite: int) -> None:
     """0 of equal ones, 1 of perpendicular ones, 2 of opposite ones: less 2^-15 where 2 saturates to 2 - 2^-16."""
     for i, a in enumerate(AXES):
-        assert ints(light.versine(*a, *a, form=form)) == [0, 0]
-        assert ints(light.versine(*a, *AXES[i - 1], form=form)) == [TWO // 2, 0]
-        assert ints(light.versine(*a, *-a, form=form)) == [opposite, 0]
+        assert versine(*a, *a, form=form) == [0, 0]
+        assert versine(*a, *AXES[i - 1], form=form) == [TWO // 2, 0]
+        assert versine(*a, *-a, form=form) == [opposite, 0]
 
 
 def test_versine_of_lengths_that_are_wrong() -> None:
     """A vector one ulp too long or too short: the chord sees next to nothing, the dot product all of it, clamped."""
     for wrong, dot in ((ONE + 1, [0, 1]), (ONE - 1, [16, 0])):
-        assert ints(light.versine(0, 0, ONE, 0, 0, wrong)) == [0, 0]
-        assert ints(light.versine(0, 0, ONE, 0, 0, wrong, form=k.FORM_PAPER)) == dot
+        assert versine(0, 0, ONE, 0, 0, wrong) == [0, 0]
+        assert versine(0, 0, ONE, 0, 0, wrong, form=k.FORM_PAPER) == dot
 
 
 def test_versine_out_of_range() -> None:
     for form in (k.FORM_REFINED, k.FORM_PAPER):
-        assert ints(light.versine(*[2 * ONE - 1] * 3, *[-2 * ONE] * 3, form=form)) == [TWO, 1]
-    assert ints(light.versine(*[-2 * ONE] * 6, form=k.FORM_PAPER)) == [0, 1]
+        assert versine(*[2 * ONE - 1] * 3, *[-2 * ONE] * 3, form=form) == [TWO, 1]
+    assert versine(*[-2 * ONE] * 6, form=k.FORM_PAPER) == [0, 1]
+
+
+def test_versine_of_every_shift() -> None:
+    """Half a last place of the bits that count: a chord of 2^-16 is x = 2^-33, of 3 2^-15 it is 9 2^-31."""
+    for shift in range(k.LOBE_FINE + 1):
+        places = 0 if shift == k.LOBE_FINE else shift
+        for far in (1, 6, 300, 3000):
+            x, _ = light.versine(0, 0, ONE, far, 0, ONE, shift)
+            exact = Fraction(far * far, 2**33)
+            assert int(x) >> CUT - places == int(exact * 2 ** (k.VERSINE_F - CUT + places) + Fraction(1, 2))
 
 
 def test_reflect() -> None:
@@ -75,7 +92,7 @@ def test_powers_of_the_lobe() -> None:
     expected = [round(Fraction(13, 16) ** (1 << power) * ONE) for power in (0, 1, 2, 3, 4, 4, 4, 4)]
     assert ints(light.lobe(x, *highlight, np.arange(8))) == expected
     assert ints(light.lobe(x, *highlight, np.arange(8), stages=2)) == expected[:3] + expected[2:3] * 5
-    assert ints(light.lobe(TWO // 2 + 1, *highlight, np.arange(8))) == [0] * 8
+    assert ints(light.lobe((TWO // 2 + 1) << CUT, *highlight, np.arange(8))) == [0] * 8
 
 
 def test_colour() -> None:

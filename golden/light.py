@@ -108,15 +108,15 @@ def geometry(
 ) -> tuple[Int, Int, Int, Int]:
     """g = num (1 + w) 2^e, by which a model multiplies its lobe, and 1 for a zero denominator (``shade_geometry``).
 
-    x U2.26 is the versine of the lobe, cut to U2.20; nh = 1 - x, not below 0; nl, nv, vh U1.16:
+    x U2.26 is the versine of the lobe; nh = 1 - x of x cut to U2.20, not below 0; nl, nv, vh U1.16:
 
         Phong, Blinn    1, with ``cosine`` nl
         Schlick         r / (x 2^inv_n_exp + r), r = nh inv_n: the rational lobe itself, 1/n = inv_n 2^-inv_n_exp
         Cook-Torrance   min(1, 2 nh nl / vh, 2 nh nv / vh) / (nl nv)
         Ward            1 / sqrt(nl nv)
 
-    and 0 for all others and for zero denominators. num U1.16 in [0, 1], w S0.18 in [-1/2, 0]. r is rounded, the
-    denominator exact, its inverse within 2^-16 (relative).
+    and 0 for all others and for zero denominators. num U1.16 in [0, 1], w S0.18 in [-1/2, 0]. r is rounded,
+    x 2^inv_n_exp cut to 20 fraction bits, the denominator exact, its inverse within 2^-16 (relative).
 
     >>> num, w, e, zero = geometry(k.MODEL_WARD, 0, 16384, 65536)  # 1 / sqrt(1/4)
     >>> int(num) / 65536 * (1 + int(w) / 2**18) * 2.0 ** int(e)
@@ -125,15 +125,14 @@ def geometry(
     model, x, nl, nv, vh, cosine, inv_n, inv_n_exp = integers(model, x, nl, nv, vh, cosine, inv_n, inv_n_exp)
     schlick, cook, ward = (model == code for code in (k.MODEL_SCHLICK, k.MODEL_COOK_TORRANCE, k.MODEL_WARD))
     x_f = k.VERSINE_F - k.VERSINE_CUT
-    x = x >> k.VERSINE_CUT
-    nh = np.maximum(round((1 << x_f) - x, x_f - k.INTENSITY_F), 0)
+    nh = np.maximum(round((1 << x_f) - (x >> k.VERSINE_CUT), x_f - k.INTENSITY_F), 0)
     large, small = np.maximum(nl, nv), np.minimum(nl, nv)
     product = nh * np.where(schlick, inv_n, small)
     r = round(product, k.INTENSITY_F)
     masked = cook & (small > 0) & (2 * product < vh << k.INTENSITY_F)  # facets hide each other's light
 
-    x = np.minimum(x, (2 << x_f) - 1)
-    rational = (x << inv_n_exp) + (r << x_f - k.INTENSITY_F)
+    x = np.minimum(x, (2 << k.VERSINE_F) - 1)
+    rational = (x << inv_n_exp >> k.VERSINE_CUT) + (r << x_f - k.INTENSITY_F)
     den = np.where(schlick, rational, large * np.where(masked, vh, small))
     zero = (schlick | cook | ward) & (den == 0)
 
@@ -280,9 +279,8 @@ def reflectance(
     refused = (code > k.MODEL_WARD) | np.isin(code, left_out)
     code = np.where(refused, k.MODEL_LAMBERT, code)
 
-    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range = angles(
-        code == k.MODEL_PHONG, n, l, v, h, of_lobe[2], form
-    )
+    shift = np.where(code == k.MODEL_SCHLICK, np.minimum(inv_n_exp, k.VERSINE_CUT), of_lobe[2])
+    diffuse, nl, nv, x, saturated, nl_range, nv_range, x_range = angles(code == k.MODEL_PHONG, n, l, v, h, shift, form)
     hx, hy, hz = integers(*h)
     lost = (code > k.MODEL_PHONG) & ((hx | hy | hz) == 0)
     shape = np.select([lost, code == k.MODEL_SCHLICK], [0, ONE], lobe(x, *of_lobe))

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_geometry: g = num (1 + w) 2^e, by which a light model multiplies its lobe: masking and the quotients.
 //
-//   Phong, Blinn    1, with cosine_i N.L
+//   Phong, Blinn    1, with .cosine N.L
 //   Schlick         r / (x 2^inv_n_exp + r), r = N.H inv_n     c / (n - n c + c), the rational lobe itself (1/n = inv_n 2^-..)
 //   Cook-Torrance   min(1, 2 N.H N.L / V.H, 2 N.H N.V / V.H) / ((N.L) (N.V)) = num / den, with large = max(N.L, N.V) and
 //                   small = min(..): 2 N.H / (large V.H) where 2 N.H small < V.H (masked), else 1 / (large small)
 //   Ward            1 / sqrt(large small)
 //   others, den = 0 (factor_o.zero)   0
 //
-//   angles_i.x       d.ffff f          U2.26, cut to U2.20, the versine of N and H: N.H = 1 - x rounded to U1.16, not below 0
-//   den                                exact (x = 2 counts as 2 - 2^-20): U2.32, of Schlick U16.20; 36 bits
+//   angles_i.x       d.ffff ff         U2.26, the versine of N and H: N.H = 1 - x, x cut to U2.20, rounded to U1.16, not
+//                                      below 0; x 2^inv_n_exp is cut to 20 fraction bits
+//   den                                exact (x = 2 counts as 2 - 2^-26): U2.32, of Schlick U16.20; 36 bits
 //   1/sqrt(den)                        (1 + d) 2^-.. by shade_rsqrt, d S0.18; its square is 1/den, doubled if below 1/2
 //   factor_o.num     d.ffff            U1.16: 1, N.L, r or N.H; r rounded to nearest
 //   factor_o.w, .e  s0.ffff ff         S0.18 in [-1/2, 0], -15 .. 33; 1 + w within 2^-16 (relative)
@@ -81,8 +82,11 @@ module shade_geometry (
   end
 
   // ---- the denominator and its root ------------------------------------------------------------------------------
-  logic [X_W-2:0] x_q4;
-  logic [Z_W-1:0] x_q5, x_q6, z_q7;
+  localparam int CUT = shade_pkg::VERSINE_CUT;
+  localparam int FINE_W = shade_pkg::VERSINE_W - 1;  // x below 2
+  logic [FINE_W-1:0] x_q4;
+  logic [Z_W+CUT-1:0] x_q5;
+  logic [Z_W-1:0] x_q6, z_q7;
   logic [Y_W-1:0] y_q17;
   logic [4:0] e_q17;
   logic zero_q17;
@@ -91,13 +95,13 @@ module shade_geometry (
   shade_mul #(.A_W(C_W + 1), .B_W(C_W + 1)) u_den (
     .clk_i, .a_i({1'b0, large_q4}), .b_i({1'b0, right_q4}), .p_o(den_q6)
   );
-  shade_delay #(.WIDTH(X_W - 1), .DEPTH(1 + MUL + 1)) u_x (
-    .clk_i, .d_i(x[X_W-2:0] | {(X_W - 1) {x[X_W-1]}}), .q_o(x_q4)
+  shade_delay #(.WIDTH(FINE_W), .DEPTH(1 + MUL + 1)) u_x (
+    .clk_i, .d_i(FINE_W'(angles_i.x) | {FINE_W{x[X_W-1]}}), .q_o(x_q4)
   );
   shade_delay #(.WIDTH(C_W), .DEPTH(MUL)) u_r (.clk_i, .d_i(r_q4), .q_o(r_q6));
   always_ff @(posedge clk_i) begin
-    x_q5 <= Z_W'(x_q4) << {fours, 2'b00};
-    x_q6 <= x_q5 << ones;
+    x_q5 <= (Z_W + CUT)'(x_q4) << {fours, 2'b00};
+    x_q6 <= Z_W'((x_q5 << ones) >> CUT);
     z_q7 <= schlick ? x_q6 + (Z_W'(r_q6) << (X_F - F)) : Z_W'(den_q6);
   end
   shade_rsqrt u_rsqrt (.clk_i, .z_i(z_q7), .y_o(y_q17), .e_o(e_q17), .zero_o(zero_q17));

@@ -15,9 +15,11 @@
 //   flags_o             model: a reserved one or one left out; range: a used cosine was beyond [-1, 1]; saturated;
 //                       zero: no specular light, N.L, N.V or a denominator is not above 0, or H = 0
 //
-// Error of the specular light against the formulas of the inputs, in ulp: 1.2 times the gain from the lobe; the half ulp of
-// x, U2.20, turned by the slope of the lobe into n / 16 at light of 2 (n = 1000, gain 1: 31 measured); 2.5 from factor and
-// gain. Cook-Torrance and Ward: N.L and N.V from 1/16 on; below, their rounding counts, 2^-17 / N.L relative.
+// Error of the specular light against the formulas of the inputs, in ulp, up to n = 1024: 1.5 times the gain from the lobe,
+// as much at most from x, which is rounded where the lobe cuts it; 1/2 and, of quotients, 4 from factor and gain: Blinn 2.0
+// at gain 1 measured, Schlick 2.4. Phong: R's rounding comes to it, an ulp at most times n and, FORM_REFINED, |R - V|: 30
+// measured, FORM_PAPER 700. Cook-Torrance and Ward: N.L and N.V from 1/16 on; below, their rounding counts, 2^-17 / N.L
+// relative. sim/units/exact_light.py tells what is allowed for each vector.
 //
 // FORM: of shade_versine. REFLECT = 0 leaves Phong out, DIVIDE = 0 Schlick, Cook-Torrance and Ward.
 // LOCAL = 0: L, V, H, vh, fresnel are settings; 1: of every node; h_i, vh_i are taken LATENCY_HALFWAY clocks after n_i,
@@ -58,6 +60,8 @@ module shade_reflectance #(
 
   localparam int C_W = shade_pkg::INTENSITY_F + 1;
   localparam int MODEL_W = shade_pkg::MODEL_W;
+  localparam int LOBE_SHIFT_W = shade_pkg::LOBE_SHIFT_W;
+  localparam logic [shade_pkg::INV_EXP_W-1:0] CUT = shade_pkg::INV_EXP_W'(shade_pkg::VERSINE_CUT);
   localparam int GEOMETRY = shade_pkg::LATENCY_GEOMETRY;
   localparam int FROM_H = 1 + shade_pkg::LATENCY_VERSINE;
   localparam int ANGLES = shade_pkg::LATENCY_ANGLES_FOLDED;
@@ -88,11 +92,16 @@ module shade_reflectance #(
   // ---- angles ----------------------------------------------------------------------------------------------------
   shade_pkg::angles_t angles;
   logic [C_W-1:0] vh;
+  logic [shade_pkg::LOBE_SHIFT_W-1:0] shift;
   logic lost, lost_late, outside;  // lost: no H
   shade_angles #(.FORM(FORM), .REFLECT(REFLECT), .LOCAL(LOCAL), .FOLD(FOLD), .TAKE(TAKE)) u_angles (
     .clk_i, .rst_i, .phase_i, .mirror_i(phong && REFLECT != 0),
-    .shift_i(material.lobe.shift), .n_i, .l_i, .v_i, .h_i, .angles_o(angles)
+    .shift_i(shift), .n_i, .l_i, .v_i, .h_i, .angles_o(angles)
   );
+  always_comb begin  // x is rounded where the lobe cuts it, or Schlick's quotient
+    shift = material.lobe.shift;
+    if (schlick && DIVIDE != 0) shift = material.inv_n_exp > CUT ? LOBE_SHIFT_W'(CUT) : LOBE_SHIFT_W'(material.inv_n_exp);
+  end
   shade_ring #(.WIDTH(C_W), .DEPTH(LOCAL != 0 ? FROM_H : 0)) u_vh (.clk_i, .rst_i, .d_i(vh_i), .q_o(vh));
   assign lost    = uses_h && h_i == '0;
   assign outside = angles.nl_range || (angles.x_range && !lambert) || (angles.nv_range && divides && DIVIDE != 0);

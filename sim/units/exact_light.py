@@ -123,6 +123,8 @@ def allowed(
     refined, local = form == "refined", f0 is not None
 
     shift = 0 if material_["shift"] == k.LOBE_FINE else material_["shift"]
+    if code == k.MODEL_SCHLICK:
+        shift = material_["inv_n_exp"]
     dx = np.ldexp(1.0, k.INTENSITY_F - 1 - min(k.LOBE_SCALED_F + shift, k.VERSINE_F))
     if code == k.MODEL_PHONG:
         along = t.chord if refined else t.b

@@ -26,7 +26,7 @@ from polyshade.sim.units.exact_light import (
     reflection_error,
     total,
 )
-from polyshade.sim.units.light import FEW, SHIFTS, in_places, unused
+from polyshade.sim.units.light import FEW, SHIFTS, cut, in_places, unused
 from polyshade.sim.units.normal import unit_vectors
 
 CHUNK = 25_000
@@ -227,7 +227,7 @@ def _factors(form: str) -> Iterator[Case]:
         golden = geometry(i)
         settings = words(i)
         x, *cosines = arguments(i)
-        x = x >> k.VERSINE_CUT << k.VERSINE_CUT
+        x = cut(x, min(settings["inv_n_exp"], k.VERSINE_CUT) if settings["model"] == k.MODEL_SCHLICK else 0)
         numbers = (np.ldexp(x.astype(Real), -k.VERSINE_F), *(c.astype(Real) / ONE for c in cosines))
         g = quotients(settings["model"], *numbers, *(settings[name] for name in ("cosine", "inv_n", "inv_n_exp")))
         w, e, zero = (golden[f"factor_o.{name}"] for name in ("w", "e", "zero"))

@@ -17,7 +17,7 @@
 //
 // Error of the specular light against the formulas of the inputs, in ulp, up to n = 1024: 1.5 times the gain from the lobe,
 // as much at most from x, which is rounded where the lobe cuts it; 1/2 and, of quotients, 4 from factor and gain: Blinn 2.0
-// at gain 1 measured, Schlick 2.4. Phong: R's rounding comes to it, an ulp at most times n and, FORM_REFINED, |R - V|: 30
+// at gain 1 measured, Schlick 2.4. Phong: R's rounding comes to it, an ulp at most times n and, FORM_REFINED, |R - V|: 18
 // measured, FORM_PAPER 700. Cook-Torrance and Ward: N.L and N.V from 1/16 on; below, their rounding counts, 2^-17 / N.L
 // relative. sim/units/exact_light.py tells what is allowed for each vector.
 //

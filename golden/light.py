@@ -22,12 +22,12 @@ def versine(
 ) -> tuple[Int, Int]:
     """(x, range): 1 - cos of the angle between two unit vectors, U2.26, and 1 where it was clamped (``shade_versine``).
 
-    Refined: |a - b|^2 / 2, differences saturated to S1.16. Paper: 1 - a . b. Exact sum and half a last place of the
-    bits that count, of which 20 + ``shift`` are fraction bits (20 for LOBE_FINE): cut behind these, as a lobe of that
-    shift does, x is rounded to nearest, ties up. What is outside [0, 2] then is clamped.
+    Refined: |a - b|^2 / 2, differences saturated to S1.16. Paper: 1 - a . b. Exact sum, rounded once, to nearest, ties
+    up, to 20 + ``shift`` fraction bits, which a lobe of that shift takes (LOBE_FINE: 20); what is outside [0, 2], cut
+    to 20 fraction bits, is clamped.
 
-    >>> [int(v) for v in versine(0, 0, 65536, 39322, 0, 52429)]  # 0.2, cosine 0.8; cut: 209718
-    [13421960, 0]
+    >>> [int(v) for v in versine(0, 0, 65536, 39322, 0, 52429)]  # 0.2, cosine 0.8: 209718 / 2^20
+    [13421952, 0]
     """
     *v, shift = integers(ax, ay, az, bx, by, bz, shift)
     a, b = v[:3], v[3:]
@@ -35,9 +35,9 @@ def versine(
         total = sum(limit(p - q) ** 2 for p, q in zip(a, b, strict=True))
     else:
         total = ONE * ONE - sum(p * q for p, q in zip(a, b, strict=True))
-    drop = 2 * k.INTENSITY_F + (form == k.FORM_REFINED) - k.VERSINE_F
-    half = 1 << drop + k.VERSINE_CUT - 1 - np.where(shift == k.LOBE_FINE, 0, shift)
-    x = total + half >> drop
+    unused = k.VERSINE_CUT - np.where(shift == k.LOBE_FINE, 0, shift)
+    drop = 2 * k.INTENSITY_F + (form == k.FORM_REFINED) - k.VERSINE_F + unused
+    x = (total + (1 << drop - 1) >> drop) << unused
     clamped, outside = clamp(x >> k.VERSINE_CUT, k.VERSINE_F - k.VERSINE_CUT + 1)
     two = clamped >> k.VERSINE_F - k.VERSINE_CUT + 1  # it has no more bits
     return np.where(outside | two, clamped << k.VERSINE_CUT, x), outside

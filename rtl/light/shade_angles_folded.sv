@@ -126,17 +126,18 @@ module shade_angles_folded #(
   logic signed [DOT_W-1:0] nl_q;
   logic signed [X_W-1:0] far_q;
   logic [X_F+1:0] clamped;
-  logic [CUT-1:0] last;
+  logic [CUT-1:0] last, kept;
   logic [shade_pkg::VERSINE_W-1:0] x_q;
   logic range, range_q;
   assign last = CUT'(far_q);
+  assign kept = shift_i == FINE ? '0 : ~({CUT{1'b1}} >> shift_i);
   shade_clamp #(.WIDTH(X_W - CUT), .F(X_F + 1)) u_clamp (
     .x_i((X_W - CUT)'(far_q >>> CUT)), .y_o(clamped), .clamped_o(range)
   );
   always_ff @(posedge clk_i) begin
     if (at(NL_DONE)) nl_q <= DOT_W'(nl_sum >>> F);
     if (at(X_DONE)) far_q <= X_W'(x_sum >>> DROP);
-    if (at(X_DONE + 1)) {range_q, x_q} <= {range, clamped, range || clamped[X_F+1] ? '0 : last};
+    if (at(X_DONE + 1)) {range_q, x_q} <= {range, clamped, range || clamped[X_F+1] ? '0 : last & kept};
   end
   shade_hold #(.WIDTH(DOT_W), .DEPTH(LATENCY - NL_DONE - 1), .FOLD(FOLD)) u_nl (
     .clk_i, .load_i(at(NL_DONE)), .d_i(nl_q), .q_o(nl_o)

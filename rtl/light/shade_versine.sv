@@ -7,9 +7,8 @@
 //   a_i, b_i       sd.ffff              S1.16
 //   a - b         sdd.ffff              saturated to S1.16 (beyond 2 only for vectors longer than 1)
 //   products       36 bits, exact       three 18 x 18 multipliers, squares of the differences or a_i b_i
-//   shift_i        0 .. 6, LOBE_FINE: 0    the lobe's; 20 + shift fraction bits of x count
-//   x_o            dd.ffff ff           U2.26: the sum and half a last place of those that count: cut behind them it is
-//                                       rounded to nearest, ties up, error 1/2 of such a place; clamped to [0, 2]
+//   shift_i        0 .. 6, LOBE_FINE     the lobe's, which takes 20 + shift fraction bits, 20 for LOBE_FINE
+//   x_o            dd.ffff ff           U2.26, rounded once to so many, to nearest, ties up; clamped to [0, 2]
 //   range_o                             x cut to U2.20 was outside [0, 2], the cosine outside [-1, 1]
 //
 // Opposite axes give 2 - 2^-15 + 2^-33 in the refined form, because 2 saturates.
@@ -66,13 +65,14 @@ module shade_versine #(
   logic signed [SUM_W-1:0] x, y, z, xy_q4, z_q4, sum, half;
   logic signed [X_W-1:0] x_q5;
   logic [X_F+1:0] clamped;
-  logic [CUT-1:0] last;
+  logic [CUT-1:0] last, kept;
   logic outside;
   assign x   = SUM_W'($signed(product_q3[0]));
   assign y   = SUM_W'($signed(product_q3[1]));
   assign z   = SUM_W'($signed(product_q3[2]));
   assign sum = REFINED ? z_q4 + xy_q4 : z_q4 - xy_q4;
   assign half = (SUM_W'(1) <<< (DROP + CUT - 1)) >>> (shift_i == FINE ? '0 : shift_i);
+  assign kept = shift_i == FINE ? '0 : ~({CUT{1'b1}} >> shift_i);
   assign last = CUT'(x_q5);
   shade_clamp #(.WIDTH(X_W - CUT), .F(X_F + 1)) u_clamp (
     .x_i((X_W - CUT)'(x_q5 >>> CUT)), .y_o(clamped), .clamped_o(outside)
@@ -81,7 +81,7 @@ module shade_versine #(
     xy_q4   <= x + y;
     z_q4    <= REFINED ? half + z : half + ONE - z;
     x_q5    <= X_W'(sum >>> DROP);
-    x_o     <= {clamped, outside || clamped[X_F+1] ? '0 : last};
+    x_o     <= {clamped, outside || clamped[X_F+1] ? '0 : last & kept};
     range_o <= outside;
   end
 endmodule

@@ -63,7 +63,6 @@ PARTS = "shade_patch"  # the parts of this one are tested in it
 
 NAMED: dict[str, dict[str, tuple[str, str]]] = {  # of a module: what is wrong, a text of its source, what replaces it
     "shade_gain": {"light that rounds up to 2 becomes 0": (" || rounded[F+1]", "")},
-    "shade_light_folded": {"light that rounds up to 2 becomes 0": (" || rounded[F+1]", "")},
     "shade_node_walk": {
         "no saturation at the end of the range": ("sum[W] == sum[W-1] ? W'(sum) : {1'b0, {(W - 1) {1'b1}}}", "W'(sum)"),
         "a reset leaves a node": ("valid_q             <= !rst_i && go_q;", "valid_q <= go_q;"),

@@ -42,12 +42,14 @@ def _clamp(value, low, high):
 
 
 def flat(name: str) -> str:
-    """Fields of structures as ports of their own: ``a_i.x`` is ax_i, ``draw_i.material.k1`` k1_i, ``n_o.x`` nx_o."""
+    """Fields of structures as ports of their own: ``a_i.x`` is ax_i, ``material_i.lobe.k1`` k1_i, ``n_o.x`` nx_o,
+    ``colour_i.kd.r`` kd_r_i."""
     port, *path = name.split(".")
     if not path:
         return name
     base, way = port[:-2], port[-2:]
-    return ([base, *path][-2] if path[-1] in ("x", "y", "z") else "") + path[-1] + way
+    before = [base, *path][-2]
+    return {"x": before, "y": before, "z": before}.get(path[-1], f"{before}_" * (path[-1] in "rgb")) + path[-1] + way
 
 
 def _vector(row: Row, name: str) -> list:
@@ -140,7 +142,7 @@ def _reflect(row: Row, case: Case) -> dict:
     n, l = ([x / ONE for x in _vector(row, name)] for name in "nl")  # noqa: E741
     twice = _clamp(2 * _dot(n, l), -mpf(HIGH) / ONE, 2)
     mirror = [_clamp((twice * x - y) * ONE, LOW, HIGH) for x, y in zip(n, l, strict=True)]
-    return dict(zip(("x_o", "y_o", "z_o"), mirror, strict=True))
+    return dict(zip(("rx_o", "ry_o", "rz_o"), mirror, strict=True))
 
 
 def _halfway(row: Row, case: Case) -> dict:
@@ -173,8 +175,8 @@ def _fresnel(row: Row, case: Case) -> dict:
 
 def _colour(row: Row, case: Case) -> dict:
     made = {}
-    for c in "rgb":
-        ambient, kd, ks = (mpf(row[f"{name}_{c}_i"]) / ONE for name in ("ambient", "kd", "ks"))
+    for c in ("red", "green", "blue"):
+        ambient, kd, ks = (mpf(row[f"{name}_{c[0]}_i"]) / ONE for name in ("ambient", "kd", "ks"))
         light = ambient * ONE + kd * max(row["diffuse_i"], 0) + ks * max(row["specular_i"], 0)
         made[f"{c}_o"] = _clamp(light, 0, ONE - 1)
     return made
@@ -250,7 +252,6 @@ def light_by_shininess(seed: int) -> dict[str, float]:
     for n in SHININESS:
         surface = material.Material("blinn", float(n), exposure=1.0)
         words = material.registers(surface, (0.3, 0.6, 0.8)) | {"model": k.MODEL_BLINN}
-        words.pop("f0", None)
         rows = 100_000
         h = np.reshape([words[f"h{axis}"] for axis in "xyz"], (3, 1))
         bent = h + rng.standard_normal((3, rows)) * ONE * rng.uniform(0, 2, rows) / n**0.5
@@ -258,7 +259,7 @@ def light_by_shininess(seed: int) -> dict[str, float]:
         inputs = {f"{name}_i": np.full(rows, value) for name, value in words.items()}
         inputs |= {f"n{axis}_i": part for axis, part in zip("xyz", normal, strict=True)}
         inputs = {name: inputs[flat(name)] for name in next(case.stream(1, 1))}
-        golden, exact = case.golden(inputs)["specular_o"], case.exact(inputs)["specular_o"]
+        golden, exact = (of(inputs)["light_o.specular"] for of in (case.golden, case.exact))
         error = mpf(0)
         for index in np.argsort(np.abs(golden - exact).astype(float))[-LARGEST:]:
             row = {flat(name): int(value[index]) for name, value in inputs.items()}

@@ -63,7 +63,7 @@ class Case:
     ``golden``, ``exact``, ``ideal``: inputs -> outputs by port name, of structures by field (``n_i.x``);
     ``vectors(rng, rows)`` makes random inputs, ``all_vectors`` yields every input. ``latency``: declared; of every
     single vector. ``bound``: of the error against ``exact`` in ulp, in the paper's form at least 1/2; rounding to
-    nearest: 1/2. ``tolerance``: instead of a bound what the error of each vector may be, in ulp, by port. ``late``:
+    nearest: 1/2. ``tolerance``: beside the bound what the error of each vector may be, in ulp, by port. ``late``:
     inputs that are taken so many clocks after the others. ``ordered``: an output depends on the vectors before.
     ``own_bench``: cocotb does not run it, as the module's bench does more. ``unit_f``: fraction bits of the outputs,
     ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in it: settings,
@@ -98,8 +98,6 @@ class Case:
     @property
     def limit(self) -> float:
         """What the error may be, in ulp."""
-        if self.tolerance:
-            return np.inf
         return self.bound if self.form == "refined" else max(self.bound, 1 / 2)
 
     def stream(self, vectors: int, seed: int) -> Iterator[Arrays]:

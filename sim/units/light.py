@@ -18,19 +18,9 @@ FEW = 6_250  # vectors of a run, of which each has settings of its own
 SHIFTS = range(k.LOBE_FINE + 1)
 
 
-def unused(shift: int) -> int:
-    """The last bits of a versine that do not count for a lobe of this shift."""
-    return k.VERSINE_CUT - (0 if shift == k.LOBE_FINE else shift)
-
-
-def cut(x: np.ndarray, shift: int) -> np.ndarray:
-    """A versine without them."""
-    return x >> unused(shift) << unused(shift)
-
-
-def in_places(x: np.ndarray, exact: np.ndarray, shift: int) -> np.ndarray:
-    """What stands for the exact versine, a number, where the error of x counts in last places that count."""
-    return x + (np.ldexp(exact, k.VERSINE_F) - cut(x, shift)) / (1 << unused(shift))
+def half_a_place(shift: int) -> float:
+    """Half a last place of a versine for a lobe of this shift, in ulp."""
+    return 2.0 ** (k.VERSINE_CUT - 1 - (0 if shift == k.LOBE_FINE else shift))
 
 
 def directions(names: str) -> Callable[[np.random.Generator, int], Arrays]:
@@ -58,16 +48,12 @@ def _versine(form: str) -> Iterator[Case]:
     def golden(i: Arrays) -> Arrays:
         return dict(zip(("x_o", "range_o"), light.versine(*i.values(), form=FORMS[form]), strict=True))
 
-    def versine(i: Arrays, x: np.ndarray) -> Arrays:
-        values = golden(i)
-        return values | {"x_o": in_places(values["x_o"], x, int(i["shift_i"][0]))}
-
     def exact(i: Arrays) -> Arrays:
         a, b = _two(i)
         low, high = LIMITS
         chord = (((a - b) * ONE).clip(low, high) / ONE) ** 2
         x = chord.sum(axis=0) / 2 if form == "refined" else 1 - (a * b).sum(axis=0)
-        return versine(i, x.clip(0, 2))
+        return golden(i) | {"x_o": np.ldexp(x.clip(0, 2), k.VERSINE_F)}
 
     def ideal(i: Arrays) -> Arrays:
         a, b = _two(i)
@@ -75,11 +61,15 @@ def _versine(form: str) -> Iterator[Case]:
         unit = np.all([np.abs(length - 1) < 1 / ONE for length in lengths], axis=0)
         a, b = (v / np.where(unit, length, 1) for v, length in zip((a, b), lengths, strict=True))
         x = ((a - b) ** 2).sum(axis=0) / 2
-        return golden(i) | {"x_o": np.where(unit & (x <= 1), versine(i, x)["x_o"], exact(i)["x_o"])}
+        values = exact(i)
+        return values | {"x_o": np.where(unit & (x <= 1), np.ldexp(x, k.VERSINE_F), values["x_o"])}
+
+    def tolerance(i: Arrays) -> Arrays:
+        return {"x_o": half_a_place(int(i["shift_i"][0]))}
 
     yield Case(
         "shade_versine", form, {"FORM": FORMS[form]}, golden, exact, ideal, vectors, None, k.LATENCY_VERSINE,
-        unit_f=k.VERSINE_F - k.VERSINE_CUT, chunk=FEW,
+        unit_f=k.VERSINE_F, chunk=FEW, bound=half_a_place(k.LOBE_FINE), tolerance=tolerance,
     )  # fmt: skip
 
 
@@ -186,7 +176,8 @@ def _lobe(form: str) -> Iterator[Case]:
 
         def exact(i: Arrays) -> Arrays:
             k1, k2, shift, xmax, power = registers(i)
-            x, edge = cut(i["x_i"], shift), one + (1 << k.VERSINE_CUT)
+            unused = int(2 * half_a_place(shift)) - 1
+            x, edge = i["x_i"] & ~unused, one + (1 << k.VERSINE_CUT)
             x = np.where((x > one) & (x < edge), one, x)  # cut to 20 fraction bits it is not beyond 1
             return {"lobe_o": exact_lobe(x, k1, k2, shift, xmax, min(power, stages)) * ONE}
 

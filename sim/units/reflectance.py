@@ -26,7 +26,7 @@ from polyshade.sim.units.exact_light import (
     reflection_error,
     total,
 )
-from polyshade.sim.units.light import FEW, SHIFTS, cut, in_places, unused
+from polyshade.sim.units.light import FEW, SHIFTS, half_a_place
 from polyshade.sim.units.normal import unit_vectors
 
 CHUNK = 25_000
@@ -139,19 +139,24 @@ def _angles(form: str) -> Iterator[Case]:
         chord = ((a - b).clip(*LIMITS) ** 2).sum(axis=0) / 2
         x = chord if form == "refined" else Real(ONE) ** 2 - total(a, b)
         cosines = [cosine(n, l) * ONE, *((total(n, other) / ONE).clip(0, ONE) for other in (l, v))]
-        values = golden(i)
-        x = in_places(values["angles_o.x"], (x / ONE**2).clip(0, 2), int(i["shift_i"][0]))
-        return values | dict(zip(names, (*cosines, x), strict=False))
+        x = np.ldexp(x, k.VERSINE_F - 2 * k.INTENSITY_F).clip(0, 2 << k.VERSINE_F)
+        return golden(i) | dict(zip(names, (*cosines, x), strict=False))
 
     def tolerance(i: Arrays) -> Arrays:
-        """1/2; of R, V what R's rounding makes, in last places of x that count."""
+        """Half a last place; of R, V what R's rounding makes."""
         n, l, v = (vector(i, name).astype(Real) / ONE for name in "nlv")  # noqa: E741
         along = (2 * total(n, l)).clip(-LIMITS[1] / ONE, 2) * n - l - (v if form == "refined" else 0)
         of_r = reflection_error(n, along.clip(-2, 2) if form == "refined" else v)
-        places = np.ldexp(of_r * (1 + 2.0**-10), k.VERSINE_F - k.INTENSITY_F - unused(int(i["shift_i"][0])))
-        return dict.fromkeys(names[:3], 1 / 2) | {"angles_o.x": 1 / 2 + np.where(i["mirror_i"], places, 0)}
+        more = np.where(i["mirror_i"], np.ldexp(of_r * (1 + 2.0**-10), k.VERSINE_F - k.INTENSITY_F), 0)
+        return dict.fromkeys(names[:3], 1 / 2) | {"angles_o.x": half_a_place(int(i["shift_i"][0])) + more}
 
-    places = dict.fromkeys(("angles_o.x", "x_o"), k.VERSINE_F - k.VERSINE_CUT)
+    def without_r(i: Arrays) -> Arrays:
+        return dict.fromkeys(("nl_o", *names[:3]), 1 / 2) | dict.fromkeys(
+            ("angles_o.x", "x_o"), half_a_place(int(i["shift_i"][0]))
+        )
+
+    places = dict.fromkeys(("angles_o.x", "x_o"), k.VERSINE_F)
+    half = half_a_place(k.LOBE_FINE)
     for reflect, local in ((1, 0), (0, 0), (1, 1), (0, 1)):
         latency = k.LATENCY_ANGLES - (not reflect) * k.LATENCY_REFLECT
         yield Case(
@@ -159,6 +164,7 @@ def _angles(form: str) -> Iterator[Case]:
             lambda rng, rows, local=local, reflect=reflect: vectors(rng, rows, local, reflect), None,
             k.LATENCY_HALFWAY + 1 + k.LATENCY_VERSINE if local else latency,
             late={"h_i": k.LATENCY_HALFWAY} if local else {}, more_f=places, chunk=CHUNK, tolerance=tolerance,
+            bound=np.inf if reflect else half,
         )  # fmt: skip
 
     def without_nv(of: Callable[[Arrays], Arrays]) -> Callable[[Arrays], Arrays]:
@@ -184,11 +190,11 @@ def _angles(form: str) -> Iterator[Case]:
         yield Case(
             "shade_angles", form, point | {"REFLECT": 0}, without_nv(golden), without_nv(exact), without_nv(exact),
             lambda rng, rows: vectors(rng, rows, 0, 0), None, k.LATENCY_ANGLES_FOLDED, fold,
-            more_f=places, chunk=CHUNK,
+            more_f=places, chunk=CHUNK, bound=half, tolerance=without_r,
         )  # fmt: skip
         yield Case(
             "shade_angles_folded", form, point, folded(golden), folded(exact), folded(exact), of_h, None,
-            k.LATENCY_ANGLES_FOLDED, fold, more_f=places, chunk=CHUNK,
+            k.LATENCY_ANGLES_FOLDED, fold, more_f=places, chunk=CHUNK, bound=half, tolerance=without_r,
         )  # fmt: skip
 
 
@@ -227,7 +233,8 @@ def _factors(form: str) -> Iterator[Case]:
         golden = geometry(i)
         settings = words(i)
         x, *cosines = arguments(i)
-        x = cut(x, min(settings["inv_n_exp"], k.VERSINE_CUT) if settings["model"] == k.MODEL_SCHLICK else 0)
+        shift = min(settings["inv_n_exp"], k.VERSINE_CUT) if settings["model"] == k.MODEL_SCHLICK else 0
+        x = x & -int(2 * half_a_place(shift))
         numbers = (np.ldexp(x.astype(Real), -k.VERSINE_F), *(c.astype(Real) / ONE for c in cosines))
         g = quotients(settings["model"], *numbers, *(settings[name] for name in ("cosine", "inv_n", "inv_n_exp")))
         w, e, zero = (golden[f"factor_o.{name}"] for name in ("w", "e", "zero"))
@@ -332,6 +339,7 @@ def _nodes(form: str) -> Iterator[Case]:
         return Case(
             module, form, {"FORM": FORMS[form]} | point, golden, formula(exact_light), formula(ideal_light), vectors,
             None, latency, clocks, chunk=chunk, note=note, late=late or {}, tolerance=tolerance,
+            bound=44 if note in ("lambert", "blinn") else np.inf,  # 2.75 times the gain, 16 at most; quotients have none
         )  # fmt: skip
 
     for code, name in NAMES.items():

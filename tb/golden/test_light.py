@@ -53,7 +53,7 @@ def test_versine_of_every_shift() -> None:
         for far in (1, 6, 300, 3000):
             x, _ = light.versine(0, 0, ONE, far, 0, ONE, shift)
             exact = Fraction(far * far, 2**33)
-            assert int(x) >> CUT - places == int(exact * 2 ** (k.VERSINE_F - CUT + places) + Fraction(1, 2))
+            assert int(x) / 2 ** (CUT - places) == int(exact * 2 ** (k.VERSINE_F - CUT + places) + Fraction(1, 2))
 
 
 def test_reflect() -> None:

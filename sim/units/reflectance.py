@@ -339,7 +339,7 @@ def _nodes(form: str) -> Iterator[Case]:
         return Case(
             module, form, {"FORM": FORMS[form]} | point, golden, formula(exact_light), formula(ideal_light), vectors,
             None, latency, clocks, chunk=chunk, note=note, late=late or {}, tolerance=tolerance,
-            bound=44 if note in ("lambert", "blinn") else np.inf,  # 2.75 times the gain, 16 at most; quotients have none
+            bound=44 if note in ("lambert", "blinn") else np.inf,  # 2.75 times the gain, 16 at most
         )  # fmt: skip
 
     for code, name in NAMES.items():

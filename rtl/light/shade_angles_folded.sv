@@ -57,28 +57,33 @@ module shade_angles_folded #(
   assign first_x = ((SUM_W'(1) <<< (DROP + CUT - 1)) >>> (shift_i == FINE ? '0 : shift_i)) |
                    (REFINED ? '0 : SUM_W'(1) <<< (2 * F));
   if (FOLD == 2) begin : g_components
-    logic signed [SUM_W-1:0] xy_q, z_q;
-    logic [2:0][W-1:0] n, l, h;
-    logic [2:0][P_W-1:0] p;
+    logic signed [SUM_W-1:0] xy_q, z_q, z;
+    localparam int V_W = shade_pkg::VEC_BITS;
+    logic [V_W-1:0] n_all, l_all, h_all;
     logic minus, minus_q;
-    assign {n, l, h} = {n_i, l_i, h_i};
+    assign {n_all, l_all, h_all} = {n_i, l_i, h_i};
     assign minus     = !REFINED && at(X_AT + 3);
     for (genvar c = 0; c < 3; c++) begin : g_component
       logic signed [W:0] difference;
-      logic signed [W-1:0] limited, left_q, right_q, a_q, b_q;
-      assign difference = (W + 1)'($signed(n[c])) - (W + 1)'($signed(h[c]));
+      logic signed [W-1:0] n, l, h, limited, left_q, right_q, a_q, b_q;
+      logic signed [P_W-1:0] p;
+      assign n          = W'(n_all >> (c * W));
+      assign l          = W'(l_all >> (c * W));
+      assign h          = W'(h_all >> (c * W));
+      assign difference = (W + 1)'(n) - (W + 1)'(h);
       shade_limit #(.WIDTH(W + 1), .OUT_W(W)) u_limit (.x_i(difference), .y_o(limited));
       always_ff @(posedge clk_i) begin
-        {left_q, right_q} <= REFINED ? {limited, limited} : {n[c], h[c]};
-        {a_q, b_q}        <= at(0) ? {n[c], l[c]} : {left_q, right_q};
+        {left_q, right_q} <= REFINED ? {limited, limited} : {n, h};
+        {a_q, b_q}        <= at(0) ? {n, l} : {left_q, right_q};
       end
-      shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(p[c]));
+      shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(p));
     end
     always_ff @(posedge clk_i) begin
-      xy_q    <= SUM_W'($signed(p[0])) + SUM_W'($signed(p[1]));
-      z_q     <= (at(3) ? HALF_NL : first_x) + (minus ? -SUM_W'($signed(p[2])) : SUM_W'($signed(p[2])));
+      xy_q    <= SUM_W'(g_component[0].p) + SUM_W'(g_component[1].p);
+      z_q     <= (at(3) ? HALF_NL : first_x) + (minus ? -z : z);
       minus_q <= minus;
     end
+    assign z      = SUM_W'(g_component[2].p);
     assign nl_sum = minus_q ? z_q - xy_q : z_q + xy_q;
     assign x_sum  = nl_sum;
   end else begin : g_sums
@@ -86,7 +91,6 @@ module shade_angles_folded #(
     shade_pkg::vec_t n_q;
     logic signed [W-1:0] n, h, limited, left_q, right_q;
     logic signed [W:0] difference;
-    logic signed [SUMS-1:0][SUM_W-1:0] sum_q;
     always_comb begin
       {n, h} = {n_q.z, h_i.z};
       if (at(X_AT - 1)) {n, h} = {n_q.x, h_i.x};
@@ -103,7 +107,7 @@ module shade_angles_folded #(
       localparam bit X = m == SUMS - 1;
       logic signed [W-1:0] a_q, b_q;
       logic signed [P_W-1:0] p;
-      logic signed [SUM_W-1:0] first, term;
+      logic signed [SUM_W-1:0] first, term, sum_q;
       logic starts, minus;
       always_ff @(posedge clk_i) begin
         if (NL && at(0)) {a_q, b_q} <= {n_i.x, l_i.x};
@@ -116,10 +120,10 @@ module shade_angles_folded #(
       assign first  = NL && (!X || at(3)) ? HALF_NL : first_x;
       assign minus  = !REFINED && X && (at(X_AT + 3) || at(X_AT + 4) || at(X_AT + 5));
       assign term   = minus ? -(SUM_W'(p)) : SUM_W'(p);
-      always_ff @(posedge clk_i) sum_q[m] <= (starts ? first : $signed(sum_q[m])) + term;
+      always_ff @(posedge clk_i) sum_q <= (starts ? first : sum_q) + term;
     end
-    assign nl_sum = sum_q[0];
-    assign x_sum  = sum_q[SUMS-1];
+    assign nl_sum = g_sum[0].sum_q;
+    assign x_sum  = g_sum[SUMS-1].sum_q;
   end
 
   // ---- N.L; x into its range -------------------------------------------------------------------------------------

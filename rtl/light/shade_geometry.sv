@@ -84,7 +84,8 @@ module shade_geometry (
   // ---- the denominator and its root ------------------------------------------------------------------------------
   localparam int CUT = shade_pkg::VERSINE_CUT;
   localparam int FINE_W = shade_pkg::VERSINE_W - 1;  // x below 2
-  logic [FINE_W-1:0] x_q4;
+  logic [FINE_W-1:0] below_two, x_q4;
+  assign below_two = FINE_W'(angles_i.x) | {FINE_W{x[X_W-1]}};
   logic [Z_W+CUT-1:0] x_q5;
   logic [Z_W-1:0] x_q6, z_q7;
   logic [Y_W-1:0] y_q17;
@@ -96,7 +97,7 @@ module shade_geometry (
     .clk_i, .a_i({1'b0, large_q4}), .b_i({1'b0, right_q4}), .p_o(den_q6)
   );
   shade_delay #(.WIDTH(FINE_W), .DEPTH(1 + MUL + 1)) u_x (
-    .clk_i, .d_i(FINE_W'(angles_i.x) | {FINE_W{x[X_W-1]}}), .q_o(x_q4)
+    .clk_i, .d_i(below_two), .q_o(x_q4)
   );
   shade_delay #(.WIDTH(C_W), .DEPTH(MUL)) u_r (.clk_i, .d_i(r_q4), .q_o(r_q6));
   always_ff @(posedge clk_i) begin

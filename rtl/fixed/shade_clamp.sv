@@ -18,11 +18,11 @@ module shade_clamp #(
     $error("shade_clamp: F must be at least 1 and WIDTH at least F + 2");
   end
 
-  localparam logic [WIDTH-2:0] ONE = (WIDTH - 1)'(1) << F;
+  localparam logic signed [WIDTH-1:0] ONE = WIDTH'(1) <<< F;
 
   logic negative, above;
   assign negative  = x_i[WIDTH-1];
-  assign above     = !negative && x_i[WIDTH-2:0] > ONE;
-  assign y_o       = negative ? '0 : above ? ONE[F:0] : x_i[F:0];
+  assign above     = x_i > ONE;
+  assign y_o       = negative ? '0 : (F + 1)'(above ? ONE : x_i);
   assign clamped_o = negative || above;
 endmodule

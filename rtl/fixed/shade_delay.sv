@@ -23,6 +23,6 @@ module shade_delay #(
     localparam int BITS = WIDTH * DEPTH;
     logic [BITS-1:0] line_q;
     always_ff @(posedge clk_i) line_q <= BITS'({line_q, d_i});
-    assign q_o = line_q[BITS-1-:WIDTH];
+    assign q_o = WIDTH'(line_q >> (BITS - WIDTH));
   end
 endmodule

@@ -31,7 +31,7 @@ module shade_hold #(
     localparam int BITS = WIDTH * PLACES;
     logic [BITS-1:0] line_q;
     always_ff @(posedge clk_i) if (load_i) line_q <= BITS'({line_q, d_i});
-    assign q_o = line_q[BITS-1-:WIDTH];
+    assign q_o = WIDTH'(line_q >> (BITS - WIDTH));
   end else begin : g_delay
     shade_delay #(.WIDTH(WIDTH), .DEPTH(DEPTH)) u_delay (.clk_i, .d_i, .q_o);
     logic unused;

@@ -15,7 +15,9 @@ module shade_limit #(
   end
 
   logic negative, fits;
+  logic signed [OUT_W-1:0] low;
   assign negative = x_i[WIDTH-1];
-  assign fits     = x_i[WIDTH-1:OUT_W-1] == {(WIDTH - OUT_W + 1) {negative}};
-  assign y_o      = fits ? x_i[OUT_W-1:0] : {negative, {(OUT_W - 1) {!negative}}};
+  assign low      = OUT_W'(x_i);
+  assign fits     = x_i == WIDTH'(low);
+  assign y_o      = fits ? low : {negative, {(OUT_W - 1) {!negative}}};
 endmodule

@@ -16,6 +16,6 @@ module shade_saturate #(
 
   logic negative, too_large;
   assign negative  = x_i[WIDTH-1];
-  assign too_large = |x_i[WIDTH-2:OUT_W];
-  assign y_o       = negative ? '0 : x_i[OUT_W-1:0] | {OUT_W{too_large}};
+  assign too_large = |(x_i >> OUT_W);  // or negative
+  assign y_o       = negative ? '0 : OUT_W'(x_i) | {OUT_W{too_large}};
 endmodule

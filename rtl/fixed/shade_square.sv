@@ -18,7 +18,7 @@ module shade_square #(
 
   logic signed [2*WIDTH-1:0] product;
   shade_mul #(.A_W(WIDTH), .B_W(WIDTH)) u_mul (.clk_i, .a_i(x_i), .b_i(x_i), .p_o(product));
-  assign y_o = product[2*WIDTH-2:0];
+  assign y_o = (2 * WIDTH - 1)'(product);
   logic unused_sign;
-  assign unused_sign = &{1'b0, product[2*WIDTH-1]};
+  assign unused_sign = &{1'b0, product};
 endmodule

@@ -25,13 +25,13 @@ module formal_saturate #(
   assign one = between(x_i, '0, WIDTH'(1) <<< F);
   always_ff @(posedge clk_i) begin
     // Into [0, 2^OUT_W - 1].
-    // mutant: too_large = |x_i[WIDTH-2:OUT_W] => too_large = x_i[OUT_W]
+    // mutant: too_large = |(x_i >> OUT_W) => too_large = x_i[OUT_W]
     saturate : assert (saturated == OUT_W'(between(x_i, '0, (HALF <<< 1) - WIDTH'(1))));
     // Into [-2^(OUT_W-1), 2^(OUT_W-1) - 1].
-    // mutant: x_i[WIDTH-1:OUT_W-1] == {(WIDTH - OUT_W + 1) {negative}} => x_i[WIDTH-1:OUT_W] == {(WIDTH - OUT_W) {negative}}
+    // mutant: x_i == WIDTH'(low) => (x_i <<< 1) == (WIDTH'(low) <<< 1)
     limit : assert (limited == OUT_W'(between(x_i, -HALF, HALF - WIDTH'(1))));
     // Into [0, 1], and whether that changed anything.
-    // mutant: x_i[WIDTH-2:0] > ONE => x_i[WIDTH-2:0] >= ONE
+    // mutant: x_i > ONE => x_i >= ONE
     clamp : assert (clamped == one[F:0] && told == (one != x_i));
   end
 endmodule

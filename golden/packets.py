@@ -36,7 +36,9 @@ PACKETS = {
     "SPAN": Packet("s_axis_span of shade_core, s_axis_line of shade_pixel_normals", k.SPAN_DATA_W, SPAN),
     "RECORD": Packet("s_axis_span of shade_poly_span", k.RECORD_DATA_W, RECORD),
     "VERTEX": Packet(
-        "s_axis_vertex of shade_scan, shade_spans; three a triangle, tlast with the third", k.VERTEX_DATA_W, VERTEX
+        "s_axis_vertex of shade_spans, shade_surfaces, shade_scene; three a triangle, tlast with the third",
+        k.VERTEX_DATA_W,
+        VERTEX,
     ),
     "TRIANGLE": Packet(
         "s_axis_surface of shade_direct and of the patches, first four beats",

@@ -387,7 +387,6 @@ SURFACE = Struct(
         Field("left", k.PLACE_W, "columns of the box on the left of the first pixel"),
         Field("tag", k.TAG_W, ""),
         Field("flat", 1, ""),
-        Field("narrow", 1, "the increments of the normal fit a packet TRIANGLE"),
     ),
 )
 BEGUN = Struct(

@@ -460,8 +460,8 @@ package shade_pkg;
   localparam int PAIR_BITS = 65;
   localparam int PLANE_BITS = 128;
   localparam int SPOT_BITS = 88;
-  localparam int SURFACE_BITS = 464;
-  localparam int BEGUN_BITS = 632;
+  localparam int SURFACE_BITS = 463;
+  localparam int BEGUN_BITS = 631;
   localparam int DEEP_BITS = 48;
   localparam int TESTED_BITS = 50;
   localparam int VIEW_BITS = 29;
@@ -707,7 +707,6 @@ package shade_pkg;
 
   // a triangle whose runs follow on a stream of their own
   typedef struct packed {
-    logic narrow;  // the increments of the normal fit a packet TRIANGLE
     logic flat;
     logic [15:0] tag;
     logic [11:0] left;  // columns of the box on the left of the first pixel

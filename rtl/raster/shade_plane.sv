@@ -4,7 +4,7 @@
 //   value = vertex 0 + (dcolumn (256 column + 128 - x) + dline (256 line + 128 - y)) / 2^8, to nearest, ties up, modulo 4
 //
 // pair_i: four pairs of increments a triangle, kept in a FIFO of 64; head_i: vertex 0 and the box; run_i: see
-// shade_raster, kept in a FIFO of 64 words, run_credit_o frees one. A triangle without a run is dropped.
+// shade_raster, kept in a FIFO of 16 words, run_credit_o frees one. A triangle without a run is dropped.
 // told_o: between, dropped for want of a run; steep, one with a run has an increment that did not fit.
 // surface_valid_o stands until surface_ready_i; the runs of a surface, behind it on run_valid_o, do not wait for it.
 //
@@ -33,18 +33,19 @@ module shade_plane (
   localparam int F = shade_pkg::SUBPIXEL_F;
   localparam int S_W = shade_pkg::STEP_W;
   localparam int C_W = shade_pkg::COUNT_W;
-  localparam int WAIT_LOG2 = 6;  // what block RAM holds
+  localparam int WAIT_LOG2 = 4;
+  localparam int PAIRS_LOG2 = 6;  // deep enough for block RAM
   localparam int SUM_W = S_W + F;
 
   // ---- what waits ---------------------------------------------------------------------------------------------------
   logic pair_some, pair_taken, run_some, run_take, unused_pair;
   shade_pkg::pair_t pair;
   shade_pkg::walked_t run;
-  shade_fifo #(.WIDTH($bits(pair)), .LOG2(WAIT_LOG2), .BLOCK(1)) u_pairs (
+  shade_fifo #(.WIDTH($bits(pair)), .LOG2(PAIRS_LOG2), .BLOCK(1)) u_pairs (
     .clk_i, .rst_i, .valid_i(pair_valid_i), .data_i(pair_i), .valid_o(pair_some), .ready_i(pair_taken), .data_o(pair),
     .taken_o(unused_pair)
   );
-  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2), .BLOCK(1)) u_runs (
+  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2)) u_runs (
     .clk_i, .rst_i, .valid_i(run_valid_i), .data_i(run_i), .valid_o(run_some), .ready_i(run_take), .data_o(run),
     .taken_o(run_credit_o)
   );
@@ -82,7 +83,7 @@ module shade_plane (
   end
 
   // the runs' second FIFO, so that the next triangle can be looked at
-  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2), .BLOCK(1)) u_after (
+  shade_fifo #(.WIDTH($bits(run)), .LOG2(WAIT_LOG2)) u_after (
     .clk_i, .rst_i, .valid_i(move), .data_i(run), .valid_o(run_valid_o), .ready_i(run_ready_i), .data_o(run_o),
     .taken_o(after_taken)
   );
@@ -126,7 +127,6 @@ module shade_plane (
   logic [shade_pkg::PLACE_W-1:0] left_q;
   shade_pkg::site_t site_q;
   logic [shade_pkg::TAG_W:0] tag_q;
-  logic narrow_q;
   logic unused_low;
   assign unused_low = ^{total[F-1:0], product_q3[S_W+17:SUM_W]};
   logic [S_W-1:0] vertex;
@@ -151,23 +151,5 @@ module shade_plane (
     surface_valid_o <= !rst_i && ((result_q[3] && made_q == 2'd3) || (surface_valid_o && !surface_ready_i));
   end
 
-  // ---- do the increments of the normal, times the largest power of two below the box's size, stay in [-2, 2)? ---------------------
-  logic [C_W-1:0] last_column, last_line, column_mask_q, line_mask_q;
-  logic look_q;
-  assign last_column = columns_q - C_W'(1);
-  assign last_line   = lines_q - C_W'(1);
-  function automatic logic over(input logic [S_W-1:0] g, input logic [C_W-1:0] mask);
-    over = 1'b0;
-    for (int i = 0; i < C_W; i++) if (mask[i] && g[S_W-2-i] != g[S_W-1]) over = 1'b1;
-  endfunction
-  always_ff @(posedge clk_i) begin
-    for (int i = 0; i < C_W; i++) begin
-      column_mask_q[i] <= i == 0 || (last_column >> i) != '0;
-      line_mask_q[i]   <= i == 0 || (last_line >> i) != '0;
-    end
-    look_q <= pair_taken && !last_component;
-    if (start) narrow_q <= 1'b1;
-    else if (look_q && (over(dcolumn_q[3], column_mask_q) || over(dline_q[3], line_mask_q))) narrow_q <= 1'b0;
-  end
-  assign surface_o = {narrow_q, tag_q, left_q, lines_q, columns_q, site_q, dline_q, dcolumn_q, value_q};
+  assign surface_o = {tag_q, left_q, lines_q, columns_q, site_q, dline_q, dcolumn_q, value_q};
 endmodule

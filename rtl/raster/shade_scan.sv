@@ -57,7 +57,7 @@ module shade_scan (
     .clk_i, .rst_i, .valid_i(edge_valid), .data_i(edge_made), .valid_o(edge_some), .ready_i(edge_ready),
     .data_o(edge_next), .taken_o(unused_edge)
   );
-  shade_raster #(.CREDIT_LOG2(6)) u_raster (
+  shade_raster u_raster (
     .clk_i, .rst_i, .columns_i(view_i.columns), .lines_i(view_i.lines), .edge_valid_i(edge_some), .edge_ready_o(edge_ready), .edge_i(edge_next),
     .valid_o(walked_valid), .run_o(walked), .credit_i(walked_credit)
   );

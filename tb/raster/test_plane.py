@@ -71,5 +71,5 @@ async def triangles(bench: Bench, gap: float, stall: float) -> None:
         for name, wanted in (("value", s.plane), ("dcolumn", s.dcolumn), ("dline", s.dline)):
             for c, axis in enumerate(AXES):
                 bench.equal(found[f"{name}.{axis}"], int(wanted[i, c]), f"{name}.{axis} of {i}", k.STEP_W)
-        box = (found["columns"], found["lines"], found["left"], found["narrow"], found["tag"])
-        bench.equal(box == (*s.box[i, 2:], s.narrow[i], s.tag[i]), True, f"box of {i}")
+        box = (found["columns"], found["lines"], found["left"], found["tag"])
+        bench.equal(box == (*s.box[i, 2:], s.tag[i]), True, f"box of {i}")

@@ -40,7 +40,7 @@ def surfaces(s: golden.Scanned) -> list[tuple[int]]:
             "tag": s.tag[i],
             "flat": s.flat[i],
         }
-        found.append((word("surface_t", narrow=s.narrow[i], **values),))
+        found.append((word("surface_t", **values),))
     return found
 
 
@@ -61,7 +61,7 @@ def begun(s: golden.Scanned) -> list[tuple[int]]:
         values |= {f"surface.{name}.{axis}": v[of, c] for c, axis in enumerate(AXES)}
     box = zip(("site.column", "site.line", "columns", "lines", "left"), s.box[of].T, strict=True)
     values |= {f"surface.{name}": v for name, v in box}
-    values |= {f"surface.{name}": getattr(s, name)[of] for name in ("tag", "flat", "narrow")}
+    values |= {f"surface.{name}": getattr(s, name)[of] for name in ("tag", "flat")}
     last = np.r_[of[1:] != of[:-1], True]
     values |= {"run.column": s.column, "run.line": s.line, "run.count": s.count, "run.last": last, "run.none": 0 * last}
     return [(bits,) for bits in whole(BEGUN, values | {"first": np.r_[True, of[1:] != of[:-1]]})]

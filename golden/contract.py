@@ -315,9 +315,15 @@ LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
 LATENCY_RECORD = 1 + LATENCY_LIGHT + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF  # normal to pixel
 LATENCY_LANE = LATENCY_LINE + LATENCY_RECORD
 LATENCY_LANE_NORMALS = LATENCY_PIXEL_NORMALS + LATENCY_RECORD  # the path of normals
-LATENCY_LANE_FOLDED = (  # parts with FOLD = 6 take what comes in every sixth clock
-    LATENCY_LINE_FOLDED + 1 + (LATENCY_LIGHT_FOLDED + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF)
-)
+
+
+def lane_latency(fold: int) -> int:
+    """Clocks from a span to its first pixel in ``shade_lane``, FOLD = 2 .. 8; those of the lobe are longer with 5."""
+    light = LATENCY_LIGHT_FOLDED + (5 if fold == 5 else 0)
+    return line_latency(fold) + 1 + light + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF
+
+
+LATENCY_LANE_FOLDED = lane_latency(6)
 LATENCY_CORE = 1 + LATENCY_LANE  # the door
 LATENCY_PAINT = LATENCY_COLOUR + LATENCY_FIFO
 LATENCY_PATCH_NODES = 4  # the choice of a node, three sums

@@ -323,7 +323,7 @@ package shade_pkg;
   localparam int LATENCY_RECORD = 86;  // normal to pixel
   localparam int LATENCY_LANE = 141;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
-  localparam int LATENCY_LANE_FOLDED = 151;  // parts with FOLD = 6 take what comes in every sixth clock
+  localparam int LATENCY_LANE_FOLDED = 151;
   localparam int LATENCY_CORE = 142;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums

@@ -14,8 +14,8 @@
 // Nodes are prepared while earlier pixels are drawn. Every pipeline keeps going: what enters one has a credit for its place
 // in the FIFO behind it. No path leads from an input to an output, but, FOLD > 1, from phase_i to ready_o.
 // PATH_NORMALS = 0 leaves out shade_pixel_points; EVALUATOR, FORM, REFLECT, DIVIDE: see shade_poly_span, shade_light.
-// FOLD = 6: planner, normals and light with one multiplier each for what takes three or more otherwise: a span and a node in
-// six clocks; phase_i counts 0 to 5; REFLECT, DIVIDE and PATH_NORMALS must be 0. The same pixels.
+// FOLD = 2 .. 8: planner, normals and light share multipliers: a span and a node in FOLD clocks; phase_i counts 0 .. FOLD - 1;
+// REFLECT, DIVIDE and PATH_NORMALS must be 0. The same pixels.
 // Latency, an empty lane: LATENCY_LANE clocks from a span of 1 pixel to its pixel (EVALUATOR_FDIFF, REFLECT = 1).
 // One pixel a clock where a span has no more nodes than pixels. Source: P1, P4.
 // Example: normal (0, 0, 1), increment 0, 5 pixels, light from the viewer -> five pixels of full intensity.
@@ -29,7 +29,7 @@ module shade_lane #(
 ) (
   input  logic                   clk_i,
   input  logic                   rst_i,
-  input  logic [            2:0] phase_i,
+  input  logic [shade_pkg::PHASE_W-1:0] phase_i,
   input  shade_pkg::draw_t       draw_i,
   input  logic                   valid_i,
   output logic                   ready_o,
@@ -41,11 +41,8 @@ module shade_lane #(
   output logic                   lit_o,
   output shade_pkg::node_flags_t flags_o
 );
-  if (PATH_NORMALS < 0 || PATH_NORMALS > 1) begin : g_check
-    $error("shade_lane: PATH_NORMALS must be 0 or 1");
-  end
-  if (FOLD != 1 && (FOLD != 6 || REFLECT != 0 || DIVIDE != 0 || PATH_NORMALS != 0)) begin : g_check_fold
-    $error("shade_lane: FOLD must be 1, or 6 with REFLECT, DIVIDE and PATH_NORMALS 0");
+  if (PATH_NORMALS < 0 || PATH_NORMALS > 1 || FOLD < 1 || FOLD > 8 || (FOLD > 1 && PATH_NORMALS != 0)) begin : g_check
+    $error("shade_lane: PATH_NORMALS must be 0 or 1, FOLD in 1 .. 8, beyond 1 with REFLECT, DIVIDE and PATH_NORMALS 0");
   end
 
   // ---- points: a place in a record, and a unit normal ---------------------------------------------------------------

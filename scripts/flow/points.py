@@ -147,7 +147,7 @@ REFUSED: dict[str, list[Point]] = {
     "shade_frame": [{"COLUMNS_LOG2": 0}, {"LINES_LOG2": 13}, {"DOUBLE": 2}],
     "shade_node_walk": [{"FOLD": 9}],
     "shade_poly_span": [{"EVALUATOR": 2}],
-    "shade_lane": [{"PATH_NORMALS": 2}, {"FOLD": 2, **SMALL}, {"FOLD": 6}],
+    "shade_lane": [{"PATH_NORMALS": 2}, {"FOLD": 9, **SMALL}, {"FOLD": 6}],
     "shade_direct_door": [{"LOG2": 0}],
     "shade_direct_line": [{"LOG2": 0}],
     "shade_widen": [{"IN_W": 24}, {"IN_W": 256}, {"IN_W": 4}],

@@ -497,7 +497,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
 
     def latency(i: Arrays, _given: Given) -> ArrayLike:
         path = draw_of(i)["path"]
-        clocks = k.LATENCY_LANE_FOLDED if fold > 1 else k.LATENCY_LANE_NORMALS if normals(path) else k.LATENCY_LANE
+        clocks = k.lane_latency(fold) if fold > 1 else k.LATENCY_LANE_NORMALS if normals(path) else k.LATENCY_LANE
         clocks += (k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_SPAN_FDIFF) * horner
         clocks -= (not more.get("REFLECT", 1) and fold == 1) * k.LATENCY_REFLECT
         return clocks if normals(path) else clocks + fold * (nodes(i) - 1)
@@ -561,6 +561,7 @@ def streams() -> Iterator[Stream]:
     yield from (_phong("refined"), _phong("refined", **SMALL), _phong("paper"))
     small = SMALL | {"PATH_NORMALS": 0}
     yield from (_lane(), _lane("paper", EVALUATOR=k.EVALUATOR_HORNER, **small), _lane(FOLD=6, **small))
+    yield from (_lane(FOLD=fold, **small) for fold in (2, 3, 4, 5, 7, 8))
     yield from (_paint(), _paint(FIFO_LOG2=4))
 
 

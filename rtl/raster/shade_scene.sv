@@ -103,6 +103,7 @@ module shade_scene #(
 
   // ---- colour, place, frame ------------------------------------------------------------------------------------------------------
   shade_pkg::site_t begun_site, lit_site, site;
+  shade_pkg::intensity_t shown;
   shade_pkg::coloured_t colour;
   shade_pkg::rgb8_t pixel;
   logic coloured;
@@ -112,13 +113,10 @@ module shade_scene #(
   );
   assign begun_site = {begun.run.line, begun.run.column};
   shade_delay #(.WIDTH($bits(site)), .DEPTH(shade_pkg::LATENCY_COLOUR)) u_site (.clk_i, .d_i(lit_site), .q_o(site));
-  shade_colour u_colour (
-    .clk_i, .rst_i, .valid_i(lit), .diffuse_i(W'(light.diffuse)), .specular_i(W'(light.specular)),
-    .ambient_r_i(colour_i.ambient.r), .ambient_g_i(colour_i.ambient.g), .ambient_b_i(colour_i.ambient.b),
-    .kd_r_i(colour_i.kd.r), .kd_g_i(colour_i.kd.g), .kd_b_i(colour_i.kd.b), .ks_r_i(colour_i.ks.r),
-    .ks_g_i(colour_i.ks.g), .ks_b_i(colour_i.ks.b), .valid_o(coloured), .r_o(colour.red), .g_o(colour.green),
-    .b_o(colour.blue)
-  );
+  assign shown.diffuse  = W'(light.diffuse);
+  assign shown.specular = W'(light.specular);
+  shade_colour u_colour (.clk_i, .light_i(shown), .colour_i, .pixel_o(colour));
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_COLOUR)) u_coloured (.clk_i, .rst_i, .valid_i(lit), .valid_o(coloured));
   shade_scene_level u_level (.colour_i(colour), .pixel_o(pixel));
   shade_frame #(
     .COLUMNS_LOG2(COLUMNS_LOG2), .LINES_LOG2(LINES_LOG2), .DATA_W($bits(pixel)), .DOUBLE(DOUBLE)

@@ -216,11 +216,11 @@ def verible(files: list[Path]) -> list[str]:
 
 # What there may be at most of. The numbers only fall.
 RATCHETS = {
-    "indexed part selects and bits picked by a constant of the package, a module": 4.0,
-    "ports, a module": 13.6,
-    "handshakes tied off or left open": 71,
-    "lines of the longest module": 316,
-    "registers with an initial value": 2,
+    "indexed part selects and bits picked by a constant of the package, a module": 1.4,
+    "ports, a module": 10.8,
+    "handshakes tied off or left open": 0,
+    "lines of the longest module": 273,
+    "registers with an initial value": 0,
 }
 
 

@@ -22,9 +22,11 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -48,27 +50,27 @@ KINDS = ("line", "branch", "toggle")
 Counts = dict[tuple[str, str], int]  # of a module and a point
 
 
-def points(text: str) -> Iterable[tuple[str, str, int]]:
-    """Module, point and count of every entry of a file of Verilator's counts."""
-    for line in text.splitlines():
-        if not line.startswith("C '"):
+@cache
+def point(key: str) -> tuple[str, str]:
+    """Module and point of an entry's key in a file of Verilator's counts."""
+    found = dict(FIELD.findall(key))
+    kind = found["page"].partition("/")[0].removeprefix("v_")
+    place = f" {found['l']}" * (kind != "toggle")
+    what = re.sub(r"\s+", " ", found["o"])
+    what = "" if kind == "line" and what in ("block", "") else f" {what}"
+    return Path(found["f"]).stem, f"{kind}{place}{what}"
+
+
+def gather(folder: Path, counts: Counts, age: float = 0.0) -> None:
+    """Add the counts of all files and remove the files, but those of the last ``age`` seconds, perhaps unfinished."""
+    for path in folder.glob("*.dat"):
+        if time.time() - path.stat().st_mtime < age:
             continue
-        key, _, count = line[3:].rpartition("' ")
-        found = dict(FIELD.findall(key))
-        kind = found["page"].partition("/")[0].removeprefix("v_")
-        place = f" {found['l']}" * (kind != "toggle")
-        what = re.sub(r"\s+", " ", found["o"])
-        what = "" if kind == "line" and what in ("block", "") else f" {what}"
-        yield Path(found["f"]).stem, f"{kind}{place}{what}", int(count)
-
-
-def gather(folder: Path) -> Counts:
-    """The counts of all files, added up."""
-    counts: Counts = defaultdict(int)
-    for path in tqdm(sorted(folder.glob("*.dat")), "counts", disable=None, delay=2, leave=False):
-        for module, point, count in points(path.read_text(errors="replace")):
-            counts[module, point] += count
-    return counts
+        for line in path.read_text(errors="replace").splitlines():
+            if line.startswith("C '"):
+                key, _, count = line.rpartition("' ")
+                counts[point(key)] += int(count)
+        path.unlink()
 
 
 def summary(counts: Counts, known: dict[str, dict[str, str]]) -> tuple[dict[str, dict], list[str]]:
@@ -165,8 +167,14 @@ def main(tests: Sequence[str] = (), seeds: int = SEEDS) -> int:
     environment = os.environ | {COVERAGE: str(DATA)}
     jobs = os.environ.get("JOBS") or "auto"
     command = [sys.executable, "-m", "pytest", "-q", "-n", jobs, "--dist", "worksteal", *(tests or TESTS)]
-    failed = subprocess.run(command, cwd=ROOT, env=environment).returncode
-    report, wrong = summary(gather(DATA), json.loads(HOLES.read_text()) if HOLES.exists() else {})
+    counts: Counts = defaultdict(int)
+    with subprocess.Popen(command, cwd=ROOT, env=environment) as running:
+        while running.poll() is None:  # a file a run of a model: together they would fill a disk
+            gather(DATA, counts, 10.0)
+            time.sleep(2)
+        failed = running.returncode
+    gather(DATA, counts)
+    report, wrong = summary(counts, json.loads(HOLES.read_text()) if HOLES.exists() else {})
     with ProcessPoolExecutor(int(os.environ.get("JOBS") or os.cpu_count())) as pool:
         done = list(tqdm(pool.map(soak.item, range(seeds)), "functional", seeds, disable=None))
     crosses = functional(done)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """``make coverage``: entries are read, holes are named, excuses hold, crosses are those of work that agreed."""
 
+import collections
 import itertools
 
 import numpy as np
@@ -21,7 +22,11 @@ def test_counts(tmp_path) -> None:
         entry("shade_fifo", "toggle", 4, "full_q[2]:0->1", 0), entry("shade_fifo", "toggle", 4, "full_q[2]:1->0", 0),
     ]))  # fmt: skip
     (tmp_path / "b.dat").write_text(entry("shade_fifo", "toggle", 4, "full_q[2]:0->1", 7))
-    counts = coverage.gather(tmp_path)
+    counts = collections.defaultdict(int)
+    coverage.gather(tmp_path, counts, age=60)
+    assert not counts
+    coverage.gather(tmp_path, counts)
+    assert not [*tmp_path.iterdir()]
     report, wrong = coverage.summary(counts, {})
     holes = ["branch 9 else", "toggle full_q[2]:1->0"]
     assert report["shade_fifo"] == {"line": 100.0, "branch": 0.0, "toggle": 50.0, "holes": holes}

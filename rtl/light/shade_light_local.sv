@@ -34,7 +34,8 @@ module shade_light_local #(
   shade_halfway u_halfway (.clk_i, .rst_i, .l_i, .v_i, .h_o(h), .vh_o(vh));
   shade_fresnel u_fresnel (.clk_i, .c_i(vh), .f0_i(material_i.f0), .f_o(fresnel));
   shade_reflectance #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .LOCAL(1)) u_reflectance (
-    .clk_i, .rst_i, .phase_i('0), .material_i, .n_i, .l_i, .v_i, .h_i(h), .vh_i(vh), .fresnel_i(fresnel), .light_o, .flags_o
+    .clk_i, .rst_i, .phase_i(shade_pkg::PHASE_W'(0)), .material_i, .n_i, .l_i, .v_i, .h_i(h), .vh_i(vh),
+    .fresnel_i(fresnel), .light_o, .flags_o
   );
   shade_valid #(.DEPTH(shade_pkg::LATENCY_LIGHT_LOCAL)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 endmodule

@@ -58,8 +58,8 @@ module shade_phong #(
     .clk_i, .rst_i, .valid_i(issue), .valid_o(valid_e)
   );
   shade_light #(.FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE)) u_light (
-    .clk_i, .rst_i, .phase_i('0), .material_i(draw_i.material), .light_i(draw_i.light), .valid_i(valid_e), .n_i(e),
-    .valid_o(valid_l), .light_o(light), .flags_o(unused_flags)
+    .clk_i, .rst_i, .phase_i(shade_pkg::PHASE_W'(0)), .material_i(draw_i.material), .light_i(draw_i.light),
+    .valid_i(valid_e), .n_i(e), .valid_o(valid_l), .light_o(light), .flags_o(unused_flags)
   );
 
   // ---- pixels ----------------------------------------------------------------------------------------------------

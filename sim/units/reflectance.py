@@ -96,10 +96,15 @@ def vector(i: Arrays, name: str) -> np.ndarray:
 # ---- vectors of the gain ---------------------------------------------------------------------------------------
 
 
-def to_the_brim(rng: np.random.Generator, rows: int, mantissa: int, exponent: int) -> Arrays:
-    """Arguments of ``shade_gain`` whose product is 2, less up to an ulp, and those beside them; one in eight any."""
+def to_the_brim(
+    rng: np.random.Generator, rows: int, mantissa: int, exponent: int, above: np.ndarray | None = None
+) -> Arrays:
+    """Arguments of ``shade_gain`` whose product is 2, less up to an ulp, and those beside them; one in eight any.
+
+    ``above``: the power of two that is left for lobe, num and gain, 1 to 3.
+    """
     lobe, (low, high) = rng.integers(ONE // 2, ONE, rows, endpoint=True), signed_range(k.FACTOR_EXP_W)
-    above = rng.integers(1, 4, rows)  # 2^above (lobe num gain) is to be 2
+    above = rng.integers(1, 4, rows) if above is None else above  # 2^above (lobe num gain) is to be 2
     target = ((2 << 2 * k.INTENSITY_F + k.GAIN_F) - (1 << 2 * k.GAIN_F)) >> above
     num = -(-target // (lobe * mantissa)) + rng.integers(-1, 1, rows, endpoint=True)
     e = np.where(rng.random(rows) < 1 / 8, rng.integers(low, high, rows, endpoint=True), above - exponent)
@@ -298,11 +303,18 @@ def _factors(form: str) -> Iterator[Case]:
         still = {"factor_i.w": 0, "factor_i.e": 0, "fresnel_i": ONE}
         return factors(rng, rows) | {name: np.full(rows, value) for name, value in still.items()}
 
+    def plain_brim(rng: np.random.Generator, rows: int) -> Arrays:
+        """Light that rounds up to 2, or just does not, of a gain that alone decides on the exponent."""
+        exponent, mantissa = int(rng.integers(1, 4)), int(rng.integers(ONE, 2 * ONE))
+        given = to_the_brim(rng, rows, mantissa, exponent, np.full(rows, exponent))
+        return of_gain(rows, mantissa, exponent, given | {"e_i": np.zeros(rows, np.int64)})
+
     for fold in FOLDS:
-        yield Case(
-            "shade_gain", form, {"FOLD": fold, "TAKE": fold // 2}, gain, product, product, plain, None, k.LATENCY_GAIN,
-            fold, chunk=FEW, bound=1.5,  # 1/2, 1 for what is cut
-        )  # fmt: skip
+        for vectors, note in ((plain, ""), (plain_brim, "brim")):
+            yield Case(
+                "shade_gain", form, {"FOLD": fold, "TAKE": fold // 2}, gain, product, product, vectors, None,
+                k.LATENCY_GAIN, fold, chunk=FEW, note=note, bound=1.5,  # 1/2, 1 for what is cut
+            )  # fmt: skip
 
 
 def _nodes(form: str) -> Iterator[Case]:

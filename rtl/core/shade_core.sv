@@ -19,7 +19,7 @@
 // ERRORS and costs a clock a beat; the next span is unharmed. Without faults every span gives its pixels in order.
 // EVALUATOR: EVALUATOR_FDIFF (no multiplier at a pixel) or EVALUATOR_HORNER. FORM: FORM_REFINED or FORM_PAPER (of the
 // coefficients, the third and the versine). REFLECT = 0, DIVIDE = 0, PATH_NORMALS = 0 leave models and a path out;
-// FOLD = 6 then shares multipliers, see shade_lane.
+// FOLD = 2 .. 8 then shares multipliers, see shade_lane.
 // No combinational path from an input to an output port. One pixel a clock and lane where light keeps up: at most one
 // node a clock and lane. Latency of a first pixel: LATENCY_CORE, COLOUR = 1: LATENCY_PAINT more. Source: P1 to P4.
 // Example: after reset, normal (0, 0, 1), increment 0, 5 pixels -> five pixels of full diffuse light.

@@ -23,9 +23,9 @@ from polyshade.sim.sources import BUILD
 VIEW, SURFACE = Camera(), Material()
 LOBES = tuple(model for model in MODELS if model != "lambert")
 NEEDS = {  # options that have an effect with some values of others only, which are named from the outermost in
-    "degree": {"path": ("poly",), "form": ("paper",)},
-    "criterion": {"path": ("poly",), "model": ("lambert",)},
-    "evaluator": {"path": ("poly",)},
+    "degree": {"path": ("line",), "form": ("paper",)},
+    "criterion": {"path": ("line",), "model": ("lambert",)},
+    "evaluator": {"path": ("line",)},
     "variant": {"path": ("normals",)},
     "threshold": {"path": ("normals",), "variant": ("V1", "V2", "V4", "V5")},
     "shininess": {"model": ("phong", "blinn", "schlick")},
@@ -95,15 +95,15 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 @click.option("--size", default=VIEW.size, help="Width and height in pixels, 16 to 4096.")
 @click.option("--scan", help="rtl, the default where it can: set-up and scan conversion in the RTL; host: by NumPy.")
 @click.option("--form", default="refined", help="refined, or paper: exactly what the papers print.")
-@click.option("--degree", default=3, help="Of path poly: degree of every span in form paper, 1 to 3.")
+@click.option("--degree", default=3, help="Of path line: degree of every span in form paper, 1 to 3.")
 @click.option(
     "--path",
-    default="poly",
-    help="poly: a polynomial along each span; normals: a unit normal every pixel; patch: one in boxes of triangles; "
-    "direct: light at every pixel from scalars, without a normal.",
+    default="line",
+    help="line: a polynomial along each span; normals: a unit normal every pixel; patch: one in boxes of triangles; "
+    "direct: light at every pixel from scalars, without a normal; vector: by the yardstick, a unit normal every pixel.",
 )
 @click.option(
-    "--evaluator", default="fdiff", help="Of path poly: fdiff, forward differences; horner, a multiplier a step."
+    "--evaluator", default="fdiff", help="Of path line: fdiff, forward differences; horner, a multiplier a step."
 )
 @click.option("--variant", default="refined", help="Of path normals: refined, exact, V1 to V6.")
 @click.option("--threshold", default=0.9, help="Of path normals: length below which V1, V2, V4, V5 normalize, 0 to 1.")
@@ -124,7 +124,12 @@ def colour(option: str, default: tuple[float, float, float], help: str):
 @colour("--colour", SURFACE.colour, "Of ambient and diffuse light")
 @colour("--highlight", SURFACE.highlight, "Of the highlight")
 @click.option(
-    "--light", nargs=3, type=float, default=(0.3, 0.6, 0.8), help="Direction to the light: right, up, viewer."
+    "--light",
+    nargs=3,
+    type=float,
+    multiple=True,
+    default=[(0.3, 0.6, 0.8)],
+    help="Direction to the light: right, up, viewer. Of path patch up to four times.",
 )
 @click.option("--projection", default=VIEW.projection, help=f"{', '.join(PROJECTIONS)}.")
 @click.option("--yaw", default=VIEW.yaw, help="Degrees, turns the mesh to the viewer's right.")
@@ -154,6 +159,8 @@ def render(
         if given("crease"):
             raise UserError("--crease: is given beside --flat, allowed is one of them")
         options["crease"] = 0.0
+    options["light"], *more = options["light"]
+    options["more_lights"] = tuple(more)
     camera = Camera(size, projection, yaw, pitch, zoom, field_of_view)
     settings = frame.Settings(camera=camera, material=material(options), **options)
     refuse_without_effect({**vars(camera), **vars(settings.material), **vars(settings)})
@@ -288,11 +295,15 @@ def papers() -> None:
 
 
 @cli.command()
-def machines() -> None:
-    """Measure area, clock rate, speed and error of every path and number of lanes; leaves build/machines.json."""
+@click.argument("machine", nargs=-1)
+def machines(machine: tuple[str, ...]) -> None:
+    """Measure area, clock, speed and error of every path and number of lanes; leaves build/machines.json.
+
+    Or of the named MACHINEs alone, such as patch/4/blinn/1. What is measured is kept as long as no source changes.
+    """
     from polyshade.scripts.studies import machines as command
 
-    command.main()
+    command.main(list(machine))
 
 
 @cli.command()

@@ -24,7 +24,7 @@ from polyshade.golden.material import DIRECT_MODELS, FORMS, Material, planner_re
 from polyshade.golden.plan import criterion
 from polyshade.golden.reference.light import dot
 from polyshade.golden.scene import level
-from polyshade.sim import core, direct, patch, tools
+from polyshade.sim import core, direct, patch, tools, vector
 from polyshade.sim.core import quantize
 from polyshade.sim.errors import UserError
 from polyshade.sim.picture import painted
@@ -36,14 +36,16 @@ from polyshade.sim.scene.triangles import Triangles
 from tqdm import tqdm
 
 PATHS = {
-    "poly": contract.PATH_POLY,
+    "line": contract.PATH_POLY,
     "normals": contract.PATH_NORMALS,
     "patch": None,
     "direct": None,
+    "vector": None,
 }  # None: no path of the core
 EVALUATORS = {"horner": contract.EVALUATOR_HORNER, "fdiff": contract.EVALUATOR_FDIFF}
 VARIANTS = {name.removeprefix("VARIANT_"): code for name, code in contract.constants().items() if "VARIANT_V" in name}
 VARIANTS |= {"refined": contract.VARIANT_REFINED, "exact": contract.VARIANT_EXACT}
+LIGHTS_MAX = {"patch": contract.PATCH_LIGHTS_MAX}  # of other paths one
 LANES = (1, 2, 4, 8)
 CORE_LANES = (1, 2, 4)
 # parameters of the core; a folded one has the models FOLDED_MODELS alone
@@ -70,7 +72,8 @@ class Settings:
     camera: Camera = field(default_factory=Camera)
     material: Material = field(default_factory=Material)
     light: tuple[float, float, float] = (0.3, 0.6, 0.8)
-    path: str = "poly"
+    more_lights: tuple[tuple[float, float, float], ...] = ()  # of path patch: beside it, LIGHTS_MAX in all
+    path: str = "line"
     evaluator: str = "fdiff"
     lanes: int = 1
     light_unit: str = "full"
@@ -95,25 +98,29 @@ class Settings:
         for name, (low, high) in RANGES.items():
             if not low <= getattr(self, name) <= high:  # also refuses NaN
                 raise UserError(f"--{name}: {getattr(self, name)} is out of range, allowed is {low} to {high}")
-        if not 1e-6 < np.abs(self.light).max() < 1e6:  # also refuses NaN
-            raise UserError(f"--light: {self.light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
+        for light in self.lights:
+            if not 1e-6 < np.abs(light).max() < 1e6:  # also refuses NaN
+                raise UserError(f"--light: {light} is no direction, allowed is 1e-06 to 1e+06 for its longest part")
+        if len(self.lights) > LIGHTS_MAX.get(self.path, 1):
+            allowed = f"1 is allowed, with --path patch up to {contract.PATCH_LIGHTS_MAX}"
+            raise UserError(f"--light: {len(self.lights)} are given, {allowed}")
         if self.scan == "rtl" and self.needs_cosines:
             raise UserError(f"--scan: rtl gives no cosines, which variant {self.variant} needs, allowed is host")
         models = SURFACE_MODELS.get(self.path, (self.material.model,))
         if self.material.model not in models:
             raise UserError(f"--path: {self.path} is allowed with --model {', '.join(models)}")
-        if self.path in SURFACE_MODELS and self.form != "refined":
+        if PATHS[self.path] is None and self.form != "refined":
             raise UserError(f"--path: {self.path} is allowed with --form refined")
-        if self.path == "direct" and self.material.cosine:
-            raise UserError("--path: direct is allowed with --energy rows that are not modified")
-        if self.path == "direct" and self.lanes != 1:
-            raise UserError("--lanes: 1 is allowed with --path direct")
+        if self.path in SURFACE_MODELS and self.material.cosine:
+            raise UserError(f"--path: {self.path} is allowed with --energy rows that are not modified")
+        if self.path in ("direct", "vector") and self.lanes != 1:
+            raise UserError(f"--lanes: 1 is allowed with --path {self.path}")
         if self.path != "patch" and self.lanes not in CORE_LANES:
             raise UserError(
                 f"--lanes: {self.lanes} is allowed with --path patch, else {', '.join(map(str, CORE_LANES))}"
             )
-        if self.light_unit == "folded" and (self.path != "poly" or self.material.model not in FOLDED_MODELS):
-            raise UserError(f"--light-unit: folded is allowed with --path poly and --model {', '.join(FOLDED_MODELS)}")
+        if self.light_unit == "folded" and (self.path != "line" or self.material.model not in FOLDED_MODELS):
+            raise UserError(f"--light-unit: folded is allowed with --path line and --model {', '.join(FOLDED_MODELS)}")
 
     @property
     def needs_cosines(self) -> bool:
@@ -128,6 +135,11 @@ class Settings:
     def load(self) -> Mesh:
         """The mesh."""
         return load_mesh(self.mesh, self.subdivide, self.reading)
+
+    @property
+    def lights(self) -> tuple[tuple[float, float, float], ...]:
+        """All of them."""
+        return (self.light, *self.more_lights)
 
     @property
     def form(self) -> str:
@@ -146,7 +158,7 @@ class Settings:
         return {
             **registers(self.material, self.light),
             **planner_registers(self.material),
-            "path": PATHS[self.path],
+            "path": PATHS[self.path] or 0,
             "fixed_degree": self.degree if self.form == "paper" else 0,
             "variant": VARIANTS[self.variant],
             "threshold": int(quantize(self.threshold)),
@@ -317,29 +329,36 @@ def render(settings: Settings, mesh: Mesh | None = None) -> Frame:
         if settings.path in SURFACE_MODELS:
             sent = triangles(scanned.golden) if rtl else Triangles.of(spans, passed)
             if settings.path == "patch":
-                drawn = patch.draw(sent, surface, settings.light, stage, settings.lanes)
+                drawn = patch.draw(sent, surface, settings.lights, stage, settings.lanes)
             else:
                 drawn = direct.draw(sent, surface, settings.light, stage)
         else:
             lines = scanned.lines if rtl else core.Lines.of(spans, passed)
-            drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
+            if settings.path == "vector":
+                built = vector.SMALL if surface.model in FOLDED_MODELS else {}
+                drawn = vector.draw(lines, settings.registers, stage, **built)
+            else:
+                drawn = core.draw(lines, settings.registers, stage, **settings.parameters)
         intensity = drawn.pixels / ONE
         stage("reference")
         exact = reference(spans, camera.size, surface, settings.light)
+        for light in settings.more_lights:
+            np.clip(exact + reference(spans, camera.size, surface, light), 0, 1, out=exact)
         told = errors(intensity, exact, visible)
         if settings.form == "paper":
             lobe = reference(spans, camera.size, surface, settings.light, fitted=True)
             told |= {f"{name}_paper_lobe": errors(intensity, lobe, visible)[name] for name in ("nmse", "nmse_specular")}
 
     pixels, clocks, evaluations = spans.pixels, drawn.clocks, drawn.evaluations
-    if settings.path == "poly":
+    if settings.path == "line":
         degree = settings.degree if settings.form == "paper" else None  # refined: the planner's
         more = {"evaluator": settings.evaluator, "degree": degree, "records": drawn.records}
         more |= {"criterion": settings.criterion, "flat_spans": int(lines.flat.sum())}
-    elif settings.path == "direct":
+    elif settings.path in ("direct", "vector"):
         more = {}
     elif settings.path == "patch":
         more = {"boxes": drawn.golden.boxes, "direct_boxes": drawn.golden.direct}
+        more |= {"lights": [_plain(light) for light in settings.lights]}
     else:
         more = {"variant": settings.variant, "threshold": settings.threshold}
     found = {"first_mismatch": drawn.first_mismatch, "counter_mismatches": drawn.counter_mismatches}

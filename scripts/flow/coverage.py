@@ -104,7 +104,7 @@ def functional(outcomes: Iterable[soak.Outcome]) -> dict[str, dict]:
 
     coverage_db.clear()
     both = [False, True]
-    cores = {"model": [*MODELS], "form": ["refined", "paper"], "path": ["poly", "normals"], "lanes": [1, 2, 4],
+    cores = {"model": [*MODELS], "form": ["refined", "paper"], "path": ["line", "normals"], "lanes": [1, 2, 4],
              "gap": both, "stall": both, "reset": both, "fault": ["none", "light"]}  # fmt: skip
     surfaces = {"model": [*DIRECT_MODELS], "lanes": [1, 2, 4, 8], "gap": both, "stall": both, "reset": both}
     crosses = {

@@ -151,10 +151,10 @@ def core_spans(rng: np.random.Generator, seed: int) -> Outcome:
     """Spans and registers for ``shade_core``."""
     point = CORES[int(rng.integers(len(CORES)))]
     form = next(name for name, code in FORMS.items() if code == point["FORM"])
-    surface, path = material(rng, form=form), str(rng.choice(["poly", "normals"]))
+    surface, path = material(rng, form=form), str(rng.choice(["line", "normals"]))
     sent = lines(rng, int(rng.integers(20, 400)))
     words = {**registers(surface, direction(rng)), **planner_registers(surface)}
-    words |= {"path": {"poly": k.PATH_POLY, "normals": k.PATH_NORMALS}[path], "variant": int(rng.integers(0, 8))}
+    words |= {"path": {"line": k.PATH_POLY, "normals": k.PATH_NORMALS}[path], "variant": int(rng.integers(0, 8))}
     options, bins = traffic(rng, int(sent.count.sum()))
     made = core.draw(sent, words, options=options | {"seed": seed}, **point)
     first = made.first_mismatch or made.counter_mismatches

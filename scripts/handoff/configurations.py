@@ -37,10 +37,10 @@ CONFIGURATIONS = {
     part.name: part
     for part in (
         Configuration(
-            "core", "shade_core", {}, "poly", "spans to pixels, six models, polynomials and a path of normals"
+            "core", "shade_core", {}, "line", "spans to pixels, six models, polynomials and a path of normals"
         ),
-        Configuration("core_small", "shade_core", SMALL, "poly", "spans to pixels, Lambert and Blinn-Phong"),
-        Configuration("core_folded", "shade_core", FOLDED, "poly", "the same, a node in six clocks, fewer multipliers"),
+        Configuration("core_small", "shade_core", SMALL, "line", "spans to pixels, Lambert and Blinn-Phong"),
+        Configuration("core_folded", "shade_core", FOLDED, "line", "the same, a node in six clocks, fewer multipliers"),
         Configuration("direct", "shade_direct", {}, "direct", "triangles and runs to pixels, from scalars"),
         Configuration("patch", "shade_patch", {}, "patch", "triangles and runs to pixels, polynomials over boxes"),
         Configuration("spans", "shade_spans", {}, "scan", "vertices to spans"),

@@ -39,9 +39,9 @@ class Vectors:
 
 def record(configuration: Configuration) -> Vectors:
     """Draw the picture through the machine, compare it with the golden model, and keep what went in and out."""
-    settings = frame.Settings(camera=Camera(SIZE), path=configuration.path if configuration.path != "scan" else "poly")
+    settings = frame.Settings(camera=Camera(SIZE), path=configuration.path if configuration.path != "scan" else "line")
     with _recording(configuration.top) as found:
-        if configuration.path == "poly":
+        if configuration.path == "line":
             mesh = settings.load()
             spans = scan_convert(settings.camera.project(mesh), mesh.faces, SIZE)
             drawn = core.draw(core.Lines.of(spans), settings.registers, **configuration.point)

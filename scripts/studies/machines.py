@@ -8,25 +8,26 @@ counted, all else from packet to pixel is. Frames: yaw 30, shininess 32 where a 
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-from polyshade import sim
+from polyshade.golden import contract as k
 from polyshade.golden import core as golden
-from polyshade.golden import registers
 from polyshade.golden.material import Material
 from polyshade.scripts.flow import synth
+from polyshade.scripts.flow.points import SMALL
 from polyshade.scripts.report import save
 from polyshade.sim import frame
-from polyshade.sim.core import Lines
+from polyshade.sim.errors import UserError
 from polyshade.sim.scene.camera import Camera
-from polyshade.sim.scene.raster import resolve, scan_convert
-from polyshade.sim.sources import BUILD, Point
+from polyshade.sim.sources import BUILD, ROOT, Point
 from polyshade.sim.verilate import reached
 from tqdm import tqdm
 
 OUT = BUILD / "machines.json"
+WORK = BUILD / "machines"  # a row each
 SCENES = {
     "head1024": ("head", 0, 1024),
     "head512": ("head", 0, 512),
@@ -77,28 +78,35 @@ def direct_products(report: dict) -> int:
     return 36 * report["triangles"] + 5 * report["pixels"]
 
 
-def vector(settings: frame.Settings) -> Shot:
-    """A frame by ``shade_phong``, Lambert and Blinn-Phong."""
-    built = {"REFLECT": 0, "DIVIDE": 0}
-    mesh, size = settings.load(), settings.camera.size
-    screen = settings.camera.project(mesh)
-    spans = scan_convert(screen, mesh.faces, size)
-    lines = Lines.of(spans)
-    run = sim.load("shade_phong", **built).run(s_axis_span_tdata=lines.beats, draw_i=registers.draw(settings.registers))
-    wanted, _ = golden.phong(lines.n, lines.g, lines.count, settings.registers, reflect=0, divide=0)
-    pixels = np.stack([run.m_axis_pixel_tdata & 0xFFFF, run.m_axis_pixel_tdata >> 16], axis=-1)
-    if not np.array_equal(pixels, wanted):
-        raise RuntimeError("shade_phong: pixels differ from the golden model")
-    exact = frame.reference(spans, size, settings.material, settings.light)
-    told = frame.errors(pixels / frame.ONE, exact, resolve(spans, size))
-    clocks = int(run.given[-1] - run.taken[0] + 1)
-    products = golden.phong_products(len(pixels), reflect=0, divide=0)
-    return Shot(len(pixels), clocks, len(pixels), products, told["nmse_diffuse"], told["nmse_specular"])
+def patch_products(report: dict) -> int:
+    """52 for each triangle, of the planner and the set-up, 5 for each light."""
+    return 52 * report["triangles"] + 5 * report["light_evaluations"]
+
+
+def line_products(report: dict) -> int:
+    """Of kappa for each triangle, of the normal and its light at each node; nothing at a pixel."""
+    node = k.PRODUCTS_UNIT + k.PRODUCTS_LIGHT
+    return k.PRODUCTS_KAPPA * report["triangles"] + node * report["light_evaluations"]
+
+
+def vector_products(report: dict) -> int:
+    """At each pixel."""
+    return golden.phong_products(report["pixels"], reflect=0, divide=0)
+
+
+def row(path: str, lanes: int, top: str, products: Callable[[dict], int], point: Point, apart=None) -> Machine:
+    """A machine that ``polyshade render --path`` draws frames by."""
+    return Machine(top, point, by_path(path, lanes, products), apart)
 
 
 MACHINES: dict[str, Machine] = {
-    "direct/1/blinn/1": Machine("shade_direct", {}, by_path("direct", 1, direct_products)),
-    "vector/1/blinn/1": Machine("shade_phong", {"REFLECT": 0, "DIVIDE": 0}, vector),
+    "direct/1/blinn/1": row("direct", 1, "shade_direct", direct_products, {}),
+    **{f"patch/{n}/blinn/1": row("patch", n, "shade_patch", patch_products, {"LANES": n}) for n in (1, 2, 4, 8)},
+    "vector/1/blinn/1": row("vector", 1, "shade_phong", vector_products, {"REFLECT": 0, "DIVIDE": 0}),
+    **{
+        f"line/{n}/blinn/1": row("line", n, "shade_core", line_products, {"LANES": n, **SMALL}, "shade_registers")
+        for n in (1, 4)
+    },
 }
 
 
@@ -136,13 +144,38 @@ def speed(machine: Machine) -> dict[str, dict[str, float]]:
     }
 
 
-def main() -> dict[str, dict]:
-    """Measure every machine; the report is whole or as it was."""
-    report = {
-        name: area(machine) | speed(machine)
-        for name, machine in tqdm(MACHINES.items(), "machines", disable=None, delay=2)
-    }
-    save(OUT, report)
+def state() -> str:
+    """A hash of all sources that a row depends on."""
+    found = hashlib.sha256()
+    for path in sorted(
+        [*(ROOT / "rtl").rglob("*.sv"), *(ROOT / "golden").rglob("*.py"), *(ROOT / "sim").rglob("*.py")]
+    ):
+        found.update(path.read_bytes())
+    return found.hexdigest()
+
+
+def kept(name: str, key: str) -> dict | None:
+    """A row that was measured from the same sources."""
+    path = WORK / f"{name.replace('/', '_')}.json"
+    found = json.loads(path.read_text()) if path.exists() else {"key": None}
+    return found["row"] if found["key"] == key else None
+
+
+def main(names: list[str] | None = None) -> dict[str, dict]:
+    """Measure the named machines, or all, and leave all that are measured: a stop costs no row that is whole.
+
+    Raises UserError for a name that is none.
+    """
+    for name in names or []:
+        if name not in MACHINES:
+            raise UserError(f"{name}: no such machine, allowed {', '.join(MACHINES)}")
+    key = state()
+    report = {name: found for name in MACHINES if (found := kept(name, key))}
+    for name in tqdm(names or list(MACHINES), "machines", disable=None, delay=2):
+        if name not in report:
+            report[name] = area(MACHINES[name]) | speed(MACHINES[name])
+            save(WORK / f"{name.replace('/', '_')}.json", {"key": key, "row": report[name]})
+        save(OUT, {name: report[name] for name in MACHINES if name in report})
     for name, found in report.items():
         clock = found["fmax_mhz"] or 0
         rate = found["pixels_per_clock"]["head1024"]

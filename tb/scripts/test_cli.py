@@ -55,10 +55,11 @@ MORE_KEYS = [
     "visible_pixels", "light_evaluations", "counters", "status", "scan", "coverage_mismatches", "depth_mismatches",
 ]  # fmt: skip
 KEYS_OF_PATH = {
-    "poly": ["evaluator", "degree", "records", "criterion", "flat_spans"],
+    "line": ["evaluator", "degree", "records", "criterion", "flat_spans"],
     "normals": ["variant", "threshold"],
-    "patch": ["boxes", "direct_boxes"],
+    "patch": ["boxes", "direct_boxes", "lights"],
     "direct": [],
+    "vector": [],
 }
 KEYS_OF_FORM = {"refined": [], "paper": ["nmse_paper_lobe", "nmse_specular_paper_lobe"]}
 COUNTERS = ["pixels", "spans", "clocks", "stalls", "evaluations", "errors"]
@@ -190,7 +191,7 @@ def test_ways_to_shade(polyshade, place: Path, form: str, evaluator: str, lanes:
     report = sane(place / "frame")
     told = {key: report[key] for key in ("mesh", "size", "form", "path", "evaluator", "lanes", "model", "triangles")}
     assert told == {
-        "mesh": "sphere", "size": 64, "form": form, "path": "poly", "evaluator": evaluator, "lanes": lanes,
+        "mesh": "sphere", "size": 64, "form": form, "path": "line", "evaluator": evaluator, "lanes": lanes,
         "model": model, "triangles": 320,
     }  # fmt: skip
     assert (report["nmse_specular"] is None) == (model == "lambert")
@@ -525,7 +526,7 @@ BAD_NAMES = [
     *((["--light-unit", name], "--light-unit") for name in ("", "Full", "6", "half")),
     (
         ["--light-unit", "folded", "--model", "ward"],
-        "--light-unit: folded is allowed with --path poly and --model lamb",
+        "--light-unit: folded is allowed with --path line and --model lamb",
     ),
     (["--light-unit", "folded", "--path", "normals"], "--light-unit: folded is allowed"),
     *((["--variant", name], "--variant") for name in ("", "V0", "V7", "v1", "REFINED", "V1..V6")),
@@ -587,10 +588,10 @@ WITHOUT_EFFECT = [
 OTHER_PATH = [
     *((["--path", "normals", *option], option[0]) for option in (["--degree", "3"], ["--evaluator", "fdiff"])),
     (["--path", "normals", "--criterion", "0"], "--criterion"),
-    *((["--path", "poly", *option], option[0]) for option in (["--variant", "refined"], ["--threshold", "0.9"])),
-    (["--variant", "V5"], "--variant: is without effect on path poly, allowed with --path normals"),
+    *((["--path", "line", *option], option[0]) for option in (["--variant", "refined"], ["--threshold", "0.9"])),
+    (["--variant", "V5"], "--variant: is without effect on path line, allowed with --path normals"),
     (["--path", "normals", "--form", "paper", "--degree", "2"], "--degree"),
-    (["--path", "poly", "--degree", "2", "--path", "normals"], "--degree"),  # the last path counts
+    (["--path", "line", "--degree", "2", "--path", "normals"], "--degree"),  # the last path counts
 ]
 BAD_COMMANDS = [
     ([], "command"),

@@ -76,7 +76,7 @@ def test_pictures() -> None:
         ({"variant": "V7"}, "--variant: 'V7' is none of V1, V2"),
         ({"threshold": float("nan")}, "--threshold: nan is out of range, allowed is 0.0 to 1.0"),
         ({"light_unit": "half"}, "--light-unit: 'half' is none of full, folded"),
-        ({"light_unit": "folded", "path": "normals"}, "--light-unit: folded is allowed with --path poly and --model"),
+        ({"light_unit": "folded", "path": "normals"}, "--light-unit: folded is allowed with --path line and --model"),
         ({"criterion": -0.1}, "--criterion: -0.1 is out of range, allowed is 0.0 to 1.0"),
         ({"degree": 4}, "--degree: 4 is out of range, allowed is 1 to 3"),
         ({"light": (0.0, 0.0, 0.0)}, "--light: (0.0, 0.0, 0.0) is no direction"),

@@ -225,7 +225,8 @@ def tell(image: str, reports: list[dict]) -> None:
     )
     nmse = max(report["nmse"] or 0 for report in reports)
     click.echo(
-        f"{image}: {pixels} pixels of {spans} spans in {cycles} clocks, {mismatches} mismatches, NMSE {nmse:.1e}"
+        f"{image}: path {reports[0]['path']}, {pixels} pixels of {spans} spans in {cycles} clocks, "
+        f"{mismatches} mismatches, NMSE {nmse:.1e}"
     )
     for report in reports:
         for name, values in report.get("counter_mismatches", {}).items():

@@ -70,7 +70,7 @@ def test_pictures() -> None:
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        ({"path": "Poly"}, "--path: 'Poly' is none of poly, normals"),
+        ({"path": "Poly"}, "--path: 'Poly' is none of line, normals"),
         ({"evaluator": ""}, "--evaluator: '' is none of horner, fdiff"),
         ({"lanes": 3}, "--lanes: 3 is none of 1, 2, 4"),
         ({"variant": "V7"}, "--variant: 'V7' is none of V1, V2"),
@@ -80,6 +80,10 @@ def test_pictures() -> None:
         ({"criterion": -0.1}, "--criterion: -0.1 is out of range, allowed is 0.0 to 1.0"),
         ({"degree": 4}, "--degree: 4 is out of range, allowed is 1 to 3"),
         ({"light": (0.0, 0.0, 0.0)}, "--light: (0.0, 0.0, 0.0) is no direction"),
+        ({"more_lights": ((0.0, 0.0, 0.0),)}, "--light: (0.0, 0.0, 0.0) is no direction"),
+        ({"more_lights": ((1.0, 0.0, 0.0),)}, "--light: 2 are given, 1 is allowed, with --path patch up to 4"),
+        ({"path": "patch", "more_lights": 4 * ((1.0, 0.0, 0.0),)}, "--light: 5 are given"),
+        ({"path": "vector", "lanes": 2}, "--lanes: 1 is allowed with --path vector"),
         ({"light": (1e308, 1e308, 0.0)}, "is no direction"),
         ({"light": (1.0, float("nan"), 0.0)}, "is no direction"),
     ],

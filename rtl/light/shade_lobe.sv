@@ -20,8 +20,9 @@
 //
 // Near the peak of the lobe y is small, and so is its error, which the power multiplies by 2^power. Roundings to
 // nearest, ties up. For registers as golden.material.lobe_registers gives them (the least shift; xmax not beyond the
-// vertex) within 1.5 ulp of the formula of the inputs for every x of 20 + shift fraction bits, within 1.2 ulp for k2 >= 0, which all fits with power 4
-// have but for the broadest. n = 1 .. 1024, with POWER, the stages that are built, less than 4 up to 96 2^POWER.
+// vertex) within 1.5 ulp of the formula of the inputs for every x of 20 + shift fraction bits, what is below is cut; within
+// 1.2 ulp for k2 >= 0, which all fits with power 4 have but for the broadest. n = 1 .. 1024, with POWER, the stages that are
+// built, less than 4 up to 96 2^POWER.
 //
 // lobe_i must stay as it is while values are in flight.
 //

@@ -77,13 +77,14 @@ module shade_reflectance #(
 
   // ---- the model -------------------------------------------------------------------------------------------------
   shade_pkg::material_t material;
-  logic phong, schlick, divides, refused, lambert, uses_h;
-  assign phong   = material_i.model == MODEL_W'(shade_pkg::MODEL_PHONG);
-  assign schlick = material_i.model == MODEL_W'(shade_pkg::MODEL_SCHLICK);
-  assign divides = material_i.model >= MODEL_W'(shade_pkg::MODEL_SCHLICK) && !(material_i.model > MODEL_W'(shade_pkg::MODEL_WARD));
-  assign refused = material_i.model > MODEL_W'(shade_pkg::MODEL_WARD) || (phong && REFLECT == 0) || (divides && DIVIDE == 0);
-  assign lambert = material.model == MODEL_W'(shade_pkg::MODEL_LAMBERT);
-  assign uses_h  = material.model > MODEL_W'(shade_pkg::MODEL_PHONG);
+  logic reserved, phong, schlick, divides, refused, lambert, uses_h;
+  assign reserved = material_i.model > MODEL_W'(shade_pkg::MODEL_WARD);
+  assign phong    = material_i.model == MODEL_W'(shade_pkg::MODEL_PHONG);
+  assign schlick  = material_i.model == MODEL_W'(shade_pkg::MODEL_SCHLICK);
+  assign divides  = !reserved && !(material_i.model < MODEL_W'(shade_pkg::MODEL_SCHLICK));
+  assign refused  = reserved || (phong && REFLECT == 0) || (divides && DIVIDE == 0);
+  assign lambert  = material.model == MODEL_W'(shade_pkg::MODEL_LAMBERT);
+  assign uses_h   = material.model > MODEL_W'(shade_pkg::MODEL_PHONG);
   always_comb begin
     material = material_i;
     if (refused) material.model = MODEL_W'(shade_pkg::MODEL_LAMBERT);

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from polyshade import sim
 from polyshade.golden import contract as k
-from polyshade.golden.types import PLAN, RECORD, SPAN
+from polyshade.golden.types import PLAN, RECORD, SPAN, VIEW
 from polyshade.sim import model, verilate
 from polyshade.sim.model import SimulationError
 from polyshade.sim.sources import modules, sources
@@ -54,6 +54,16 @@ EMPTY_SPAN = dict.fromkeys((leaf.name for leaf in SPAN.leaves()), 0)
 JAM = {"data_i": np.arange(9), "out_stall": 1.0, "patience": 50}
 DOOR = {"s_axis_span_tkeep": (1 << k.SPAN_DATA_W // 8) - 1, "s_axis_span_tlast": 1, "draw_i": 0, "hold_i": 0}
 DOOR |= {"room_i": 0, "s_axis_span_tdata": np.ones((9, 8), np.uint32)}
+IDLE = dict.fromkeys(("take_i", "told_i", "end_i", "run_valid_i", "count_i", "pixel_i", "busy_i"), 0)
+NO_RUN = dict.fromkeys(("surface_valid_i", "surface_i", "run_valid_i", "run_i", "request_ready_i", "answer_i"), 0)
+NO_RUN |= dict.fromkeys(("surface_ready_i", "run_ready_i"), 0)
+FRAME = dict.fromkeys(("background_i", "request_valid_i", "request_i", "pixel_valid_i", "site_i", "pixel_i"), 0)
+FRAME |= {
+    "view_i": dict.fromkeys((leaf.name for leaf in VIEW.leaves()), 1),
+    "write_i": 0,
+    "write_valid_i": [1] * 30,
+    "show_i": 0,
+}
 NARROW = {"REFLECT": 0, "DIVIDE": 0, "PATH_NORMALS": 0}
 
 CASES = {
@@ -91,6 +101,13 @@ CASES = {
         ("dark_q <= !rst_i &&", "dark_q <= !rst_i ||"),
     ),
     "shade_door.u_given": ("shade_door", {}, DOOR | {"given_i": 1, "patience": 50}, ()),
+    "shade_scene_idle.u_triangles": ("shade_scene_idle", {}, IDLE | {"end_i": [1] * 9}, ()),
+    "shade_scene_idle.u_pixels": ("shade_scene_idle", {}, IDLE | {"pixel_i": [1] * 9}, ()),
+    "shade_scene_sites.u_run": (
+        "shade_scene_sites", {}, {"run_valid_i": 0, "site_i": 0, "step_i": [1] * 9, "last_i": 0}, ()
+    ),
+    "shade_depth.u_answer": ("shade_depth", {}, NO_RUN | {"answer_valid_i": [1] * 9}, ()),
+    "shade_frame.u_clear_alone": ("shade_frame", {"COLUMNS_LOG2": 2, "LINES_LOG2": 2}, FRAME, ()),
     "shade_registers.u_write": (
         "shade_registers", {}, QUIET | {"writes": {0x40: 0}},
         ("if (s_axil_bready) s_axil_bvalid <= 1'b0;", "if (!s_axil_bready) s_axil_bresp <= ~s_axil_bresp;"),

@@ -60,7 +60,8 @@ module shade_angles #(
 
   if (FOLD > 1) begin : g_folded
     logic [F:0] cosine;
-    shade_clamp u_clamp (.x_i(diffuse), .y_o(cosine), .clamped_o());
+    logic unused_clamp;
+    shade_clamp u_clamp (.x_i(diffuse), .y_o(cosine), .clamped_o(unused_clamp));
     shade_angles_folded #(.FORM(FORM), .FOLD(FOLD), .TAKE(TAKE)) u_folded (
       .clk_i, .phase_i, .shift_i, .n_i, .l_i, .h_i, .nl_o(nl), .x_o(angles_o.x), .range_o(angles_o.x_range)
     );
@@ -80,8 +81,10 @@ module shade_angles #(
     shade_dot3 u_nl (.clk_i, .a_i(n_i), .b_i(l_i), .d_o(nl));
     shade_dot3 u_nv (.clk_i, .a_i(n_i), .b_i(v_i), .d_o(nv));
     assign nv_range = nv > ONE || nv < -ONE;
-    shade_clamp #(.WIDTH(DOT_W)) u_nv_clamp (.x_i(nv), .y_o(cosine_v), .clamped_o());
-    shade_clamp u_nl_clamp (.x_i(diffuse_last), .y_o(cosine_l), .clamped_o());
+    logic unused_nv_clamp;
+    shade_clamp #(.WIDTH(DOT_W)) u_nv_clamp (.x_i(nv), .y_o(cosine_v), .clamped_o(unused_nv_clamp));
+    logic unused_nl_clamp;
+    shade_clamp u_nl_clamp (.x_i(diffuse_last), .y_o(cosine_l), .clamped_o(unused_nl_clamp));
     always_ff @(posedge clk_i) begin
       {nl_range_q5, nv_range_q5, saturated_q5} <= {nl_range, nv_range, saturated};
       diffuse_q5       <= diffuse;

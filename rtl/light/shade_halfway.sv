@@ -38,7 +38,8 @@ module shade_halfway (
     .clk_i, .rst_i, .d_i(v_i), .q_o(v_q20)
   );
   shade_dot3 u_dot (.clk_i, .a_i(v_q20), .b_i(h_q20), .d_o(dot_q24));
-  shade_clamp #(.WIDTH(DOT_W)) u_vh (.x_i(dot_q24), .y_o(vh), .clamped_o());
+  logic unused_vh;
+  shade_clamp #(.WIDTH(DOT_W)) u_vh (.x_i(dot_q24), .y_o(vh), .clamped_o(unused_vh));
   always_ff @(posedge clk_i) vh_o <= vh;
   shade_delay #(.WIDTH($bits(h_o)), .DEPTH(shade_pkg::LATENCY_DOT3 + 1)) u_h (.clk_i, .d_i(h_q20), .q_o(h_o));
   logic unused_zero;  // H tells

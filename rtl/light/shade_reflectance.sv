@@ -136,7 +136,8 @@ module shade_reflectance #(
     shade_ring #(.WIDTH($bits(early)), .DEPTH(FACTOR - GEOMETRY)) u_wait (.clk_i, .rst_i, .d_i(early), .q_o(factor));
   end else begin : g_plain
     logic [C_W-1:0] cosine;  // of Phong and Blinn
-    shade_clamp u_cosine (.x_i(diffuse_late), .y_o(cosine), .clamped_o());
+    logic unused_cosine;
+    shade_clamp u_cosine (.x_i(diffuse_late), .y_o(cosine), .clamped_o(unused_cosine));
     assign factor.num  = lambert ? '0 : material.cosine ? cosine : ONE;
     assign factor.w    = '0;
     assign factor.e    = '0;

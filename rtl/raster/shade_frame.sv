@@ -110,8 +110,9 @@ module shade_frame #(
     mark_q2   <= mark_q1;
     read_q2   <= read_q && !rst_i;
   end
+  logic unused_credit;
   shade_credit #(.LOG2(FIFO_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(read), .give_i(taken), .some_o(some), .soon_o()
+    .clk_i, .rst_i, .take_i(read), .give_i(taken), .some_o(some), .soon_o(unused_credit)
   );
   shade_fifo #(.WIDTH(DATA_W + 2), .LOG2(FIFO_LOG2)) u_fifo (
     .clk_i, .rst_i, .valid_i(read_q2), .data_i({mark_q2, colour_q2}), .valid_o(m_axis_frame_tvalid),

@@ -99,10 +99,11 @@ module shade_patch #(
     .clk_i, .rst_i, .valid_i(value_put), .data_i(value_new), .valid_o(value_valid), .ready_i(piece_ready),
     .data_o(value), .taken_o(piece_taken)
   );
+  logic unused_areas;
   // written before the values, read with them
   shade_fifo #(.WIDTH(shade_pkg::PATCH_AREA_W), .LOG2(FIFO), .BLOCK(1)) u_areas (
     .clk_i, .rst_i, .valid_i(area_put), .data_i(area_new), .valid_o(area_valid), .ready_i(value_valid && piece_ready),
-    .data_o(area), .taken_o()
+    .data_o(area), .taken_o(unused_areas)
   );
   shade_patch_room #(.LIMIT((1 << FIFO) - 64)) u_piece_room (.clk_i, .rst_i, .put_i(area_put), .taken_i(piece_taken), .room_o(piece_room));
   logic unused_valid;

@@ -62,13 +62,15 @@ module shade_patch_boxes #(
     .beat_valid_o(beat_put), .beat_o(beat_new), .done_i, .place_valid_o(place_put), .place_o(place_new),
     .run_valid_o(run_put), .run_o(run_new), .run_room_i(run_room), .table_write_o, .table_at_o, .table_o, .shift_o, .error_o
   );
+  logic unused_beats;
   shade_fifo #(.WIDTH(DATA_W), .LOG2(FIFO), .BLOCK(1)) u_beats (
     .clk_i, .rst_i, .valid_i(beat_put), .data_i(beat_new), .valid_o(beat_valid_o), .ready_i(beat_ready_i), .data_o(beat_o),
-    .taken_o()
+    .taken_o(unused_beats)
   );
+  logic unused_places;
   shade_fifo #(.WIDTH(shade_pkg::PATCH_PLACE_W), .LOG2(FIFO), .BLOCK(1)) u_places (
     .clk_i, .rst_i, .valid_i(place_put), .data_i(place_new), .valid_o(place_valid_o), .ready_i(place_ready_i),
-    .data_o(place_o), .taken_o()
+    .data_o(place_o), .taken_o(unused_places)
   );
   shade_fifo #(.WIDTH(shade_pkg::PATCH_RUN_W), .LOG2(FIFO), .BLOCK(1)) u_runs (
     .clk_i, .rst_i, .valid_i(run_put), .data_i(run_new), .valid_o(run_valid), .ready_i(run_ready), .data_o(run),
@@ -84,9 +86,10 @@ module shade_patch_boxes #(
   logic [COUNT_W-1:0] columns, lines;
   logic [shade_pkg::TRIANGLE_EXP_W-1:0] column_exp, line_exp;
   logic [shade_pkg::PATCH_PLAN_W-1:0] plan, row_plan;
+  logic unused_far_beats;
   shade_fifo #(.WIDTH(DATA_W), .LOG2(FIFO), .BLOCK(1)) u_far_beats (
     .clk_i, .rst_i, .valid_i(beat_put), .data_i(beat_new), .valid_o(far_beat_valid), .ready_i(far_beat_ready),
-    .data_o(far_beat), .taken_o()
+    .data_o(far_beat), .taken_o(unused_far_beats)
   );
   shade_patch_far #(.LIGHTS(LIGHTS)) u_far (
     .clk_i, .rst_i, .h_i, .beat_valid_i(far_beat_valid), .beat_ready_o(far_beat_ready), .beat_i(far_beat),
@@ -98,13 +101,15 @@ module shade_patch_boxes #(
     .half_i(half), .columns_i(columns), .lines_i(lines), .column_exp_i(column_exp), .line_exp_i(line_exp),
     .valid_o(planned), .plan_o(plan)
   );
+  logic unused_plans;
   shade_fifo #(.WIDTH(6), .LOG2(FIFO), .BLOCK(1)) u_plans (
     .clk_i, .rst_i, .valid_i(planned), .data_i(plan[5:0]), .valid_o(plan_valid_o), .ready_i(plan_ready_i), .data_o(plan_o),
-    .taken_o()
+    .taken_o(unused_plans)
   );
+  logic unused_row_plans;
   shade_fifo #(.WIDTH(shade_pkg::PATCH_PLAN_W), .LOG2(FIFO), .BLOCK(1)) u_row_plans (
     .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(row_plan_valid), .ready_i(rows_take), .data_o(row_plan),
-    .taken_o()
+    .taken_o(unused_row_plans)
   );
 
   // ---- boxes ---------------------------------------------------------------------------------------------------------------------

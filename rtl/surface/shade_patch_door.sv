@@ -57,8 +57,9 @@ module shade_patch_door #(
     none = n == '0 || n > COUNT_W'(shade_pkg::PIXELS_MAX);
   endfunction
   assign no_box = none(s_axis_surface_tdata[0+:COUNT_W]) || none(s_axis_surface_tdata[16+:COUNT_W]);
+  logic unused_credit;
   shade_credit #(.LOG2(TRIANGLES_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(beat && state_q == BOX), .give_i(done_i), .some_o(some), .soon_o()
+    .clk_i, .rst_i, .take_i(beat && state_q == BOX), .give_i(done_i), .some_o(some), .soon_o(unused_credit)
   );
   logic [PLACE_W-1:0] from_q;  // columns on the left of the reference pixel
   logic [COUNT_W-1:0] columns_q, lines_q;

@@ -46,8 +46,9 @@ module shade_patch_lane (
   assign issue          = some && busy_q && !single_valid_i;
   assign ready_o        = !busy_q || (issue && last_q);
   assign load           = valid_i && ready_o;
+  logic unused_credit;
   shade_credit #(.LOG2(FIFO_LOG2)) u_credit (
-    .clk_i, .rst_i, .take_i(put), .give_i(credit), .some_o(some), .soon_o()
+    .clk_i, .rst_i, .take_i(put), .give_i(credit), .some_o(some), .soon_o(unused_credit)
   );
   always_ff @(posedge clk_i) begin
     if (load) begin

@@ -38,7 +38,8 @@ module shade_patch_light #(
   localparam int LATENCY = shade_pkg::LATENCY_DIRECT_LIGHT + (LIGHTS > 1 ? 1 : 0);
   logic signed [shade_pkg::RHO_F:0] rho;
   logic short;
-  shade_rho u_rho (.clk_i, .p_i, .rho_o(rho), .short_o(short), .long_o());
+  logic unused_rho;
+  shade_rho u_rho (.clk_i, .p_i, .rho_o(rho), .short_o(short), .long_o(unused_rho));
   shade_delay #(.WIDTH(1), .DEPTH(LATENCY - shade_pkg::LATENCY_RHO)) u_short (.clk_i, .d_i(short), .q_o(short_o));
   shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 

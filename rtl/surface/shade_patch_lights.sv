@@ -95,10 +95,11 @@ module shade_patch_lights #(
     .data_o(light_o), .taken_o(light_taken)
   );
   shade_patch_room #(.LIMIT((1 << WAIT) - 64)) u_light_room (.clk_i, .rst_i, .put_i(light_put), .taken_i(light_taken), .room_o(light_room));
+  logic unused_metas;
   // no more than the lights, for which there is room
   shade_fifo #(.WIDTH(shade_pkg::PATCH_META_W), .LOG2(WAIT), .BLOCK(1)) u_metas (
     .clk_i, .rst_i, .valid_i(meta_put), .data_i(meta_new), .valid_o(meta_valid_o), .ready_i(meta_ready_i),
-    .data_o(meta_o), .taken_o()
+    .data_o(meta_o), .taken_o(unused_metas)
   );
   always_comb begin
     flags_o = '0;

@@ -104,7 +104,7 @@ def file_list() -> list[str]:
 
 def licence() -> list[str]:
     """Sources without the line that names their licence."""
-    kinds = {".py", ".sv", ".sh", ".c", ".cpp", ".h", ".vlt", ".f"}
+    kinds = {".py", ".sv", ".sh", ".c", ".cpp", ".h", ".f"}
     sources = [name for name in documents.files(ROOT) if Path(name).suffix in kinds or name == "Makefile"]
     return [
         f"{name}: its first lines do not hold '{LICENCE}'" for name in sorted(sources) if not _licensed(ROOT / name)
@@ -251,7 +251,7 @@ def counted(texts: list[str]) -> dict[str, float]:
 def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
     """In a folder of its own, to which no path of the list is relative."""
     options = [f"-G{name}={value}" for name, value in point.items()]
-    files = [RTL / "lint.vlt", "-F", RTL / "shade.f", *(path for name, path in comparisons().items() if name == module)]
+    files = ["-F", RTL / "shade.f", *(path for name, path in comparisons().items() if name == module)]
     command = [installed().program, "--lint-only", "-Wall", "--top-module", module, *options, *files]
     (BUILD / "lint").mkdir(parents=True, exist_ok=True)
     return subprocess.run(command, cwd=BUILD / "lint", env=environment(), capture_output=True, text=True)

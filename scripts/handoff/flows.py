@@ -197,7 +197,6 @@ def fusesoc(parts: list[Configuration]) -> str:
         "description": "Polynomial shading: spans, triangles or vertices in, shaded pixels out",
         "filesets": {
             "rtl": {"files": files, "file_type": "systemVerilogSource"},
-            "waivers": {"files": ["rtl/lint.vlt"], "file_type": "vlt"},
         },
         "parameters": {},
         "targets": {"default": {"filesets": ["rtl"]}},
@@ -213,7 +212,7 @@ def fusesoc(parts: list[Configuration]) -> str:
         }
         tree["filesets"][f"plain_{part.name}"] = {"files": [f"verilog/{part.name}.v"], "file_type": "verilogSource"}
         tree["targets"][f"lint_{part.name}"] = {
-            "default_tool": "verilator", "filesets": ["waivers", "rtl"], "toplevel": part.top, "parameters": values,
+            "default_tool": "verilator", "filesets": ["rtl"], "toplevel": part.top, "parameters": values,
             "tools": {"verilator": {"mode": "lint-only", "verilator_options": ["-Wall"]}},
         }  # fmt: skip
         tree["targets"][f"smoke_{part.name}"] = {

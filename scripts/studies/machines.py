@@ -3,7 +3,8 @@
 
 Leaves ``build/machines.json``: ``{"<path>/<lanes>/<models>/<lights>": {...}}``. :data:`MACHINES` is the list; a new one
 needs its synthesis point, what draws a frame by it, and the products of a frame. Registers on AXI4-Lite are not
-counted, all else from packet to pixel is. Frames: yaw 30, shininess 32 where a key says nothing else.
+counted, all else from packet to pixel is. Frames: yaw 30, shininess 32 where a key says nothing else, scan
+conversion by NumPy: the error is that of the machine alone.
 """
 
 from __future__ import annotations
@@ -126,7 +127,7 @@ def area(machine: Machine) -> dict[str, float | int | None]:
 
 def speed(machine: Machine) -> dict[str, dict[str, float]]:
     """Pixels a clock, products and evaluations a pixel, errors."""
-    settings = frame.Settings(material=Material(shininess=32.0))
+    settings = frame.Settings(material=Material(shininess=32.0), scan="host")
 
     def shoot(scene: str, material: Material) -> Shot:
         mesh, subdivide, size = SCENES[scene]

@@ -43,8 +43,8 @@ module shade_patch_light #(
   shade_delay #(.WIDTH(1), .DEPTH(LATENCY - shade_pkg::LATENCY_RHO)) u_short (.clk_i, .d_i(short), .q_o(short_o));
   shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i, .valid_o);
 
-  logic signed [W-1:0] diffuse[0:LIGHTS-1];
-  logic [shade_pkg::PIXEL_W-1:0] specular[0:LIGHTS-1];
+  logic [LIGHTS-1:0][W-1:0] diffuse;
+  logic [LIGHTS-1:0][shade_pkg::PIXEL_W-1:0] specular;
   for (genvar i = 0; i < LIGHTS; i++) begin : g_light
     shade_scalar_light #(.SIGNED(1), .MEMORY(1)) u_light (
       .clk_i, .rst_i, .write_i(table_write_i), .address_i(table_at_i), .chord_i(table_i), .shift_i,
@@ -54,7 +54,7 @@ module shade_patch_light #(
   end
 
   if (LIGHTS == 1) begin : g_one
-    assign diffuse_o  = diffuse[0];
+    assign diffuse_o  = $signed(diffuse[0]);
     assign specular_o = $signed({2'b00, specular[0]});
   end else begin : g_sum
     localparam int SUM_W = W + 3;
@@ -64,7 +64,7 @@ module shade_patch_light #(
       diffuse_sum  = '0;
       specular_sum = '0;
       for (int i = 0; i < LIGHTS; i++) begin
-        diffuse_sum  = diffuse_sum + (diffuse[i] < 0 ? '0 : SUM_W'(diffuse[i]));
+        diffuse_sum  = diffuse_sum + (diffuse[i][W-1] ? '0 : $signed(SUM_W'(diffuse[i])));
         specular_sum = specular_sum + $signed(SUM_W'(specular[i]));
       end
     end

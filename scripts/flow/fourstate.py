@@ -67,11 +67,15 @@ endmodule
 """
 
 
+def installed() -> None:
+    """Raise UserError where Icarus is missing."""
+    if not shutil.which("iverilog"):
+        raise UserError("iverilog: missing, install with: apt-get install -y iverilog")
+
+
 def check(netlist: Path, folder: Path, point: Point, seed: int = 1) -> tuple[int, int, str]:
     """Pixels that were compared, how many differ or are unknown, and the first of these."""
-    for program in ("iverilog", "vvp"):
-        if not shutil.which(program):
-            raise UserError(f"{program}: missing, install with: apt-get install -y iverilog")
+    installed()
     folder.mkdir(parents=True, exist_ok=True)
     lines = soak.lines(np.random.default_rng(seed), SPANS)
     lines.count[:] = np.minimum(lines.count, 40)

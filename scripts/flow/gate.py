@@ -276,7 +276,9 @@ def main(names: list[str] | None = None) -> int:
             raise UserError(f"{name}: no such unit, allowed {', '.join(sorted(known))}")
     wanted = [index for index, case in enumerate(chosen) if not names or case.module in names]
     long = [name for name, (module, _, _) in STREAMS.items() if not names or module in names]
-    long += [FOUR] * ("shade_core" in (names or ["shade_core"]))
+    if "shade_core" in (names or ["shade_core"]):
+        fourstate.installed()  # told before the work
+        long.append(FOUR)
     jobs = [(job, family) for job in [*long, *wanted] for family in FAMILIES]  # the longest first
     report = []
     with ProcessPoolExecutor(int(os.environ.get("JOBS") or os.cpu_count())) as pool:

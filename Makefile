@@ -9,7 +9,7 @@ EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate mutants coverage budget report soak machines handoff pictures tables lock clean distclean
+.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate mutants coverage budget report soak machines handoff board pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -72,6 +72,9 @@ synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.
 
 soak: $(READY) ## Random work against the golden model: MINUTES=1 SEED=1; leaves build/soak.json
 	$(BIN)/polyshade soak --minutes $(or $(MINUTES),1) --seed $(or $(SEED),1)
+
+board: $(READY) ## Make the bitstream of a board: BOARD=ulx3s; leaves build/boards
+	$(BIN)/polyshade board '$(or $(BOARD),$(error BOARD is empty: allowed ulx3s))'
 
 pictures: $(READY) ## Make the pictures of the READMEs again, in docs
 	$(BIN)/python -m polyshade.scripts.drawings.pictures

@@ -394,6 +394,15 @@ def soak(minutes: float, seed: int, scheduler: str | None, kind: str) -> None:
     sys.exit(command.main(minutes, seed, scheduler, kind))
 
 
+@cli.command()
+@click.argument("name")
+def board(name: str) -> None:
+    """Make the bitstream of a board (ulx3s); leaves build/boards/."""
+    from polyshade.scripts import boards
+
+    boards.main(name)
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; turn every fault of the user into one line and exit status 2."""
     try:

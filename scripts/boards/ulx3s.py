@@ -41,7 +41,7 @@ WORK = BUILD / "boards" / "ulx3s"
 TOP = "ulx3s"
 OWN = sorted((HERE / "rtl").glob("*.sv"), key=lambda path: (path.stem == TOP, path.stem == "board_machine", path.stem))
 COLUMNS, LINES = 320, 240
-VERTICES = 600  # of the head, at most 1024
+VERTICES = 500  # of the head, at most 512
 RADIUS = 118 * 256  # half of its height, in 1/256 pixel
 LENGTH = 0.98 * 32767  # of a normal
 LIGHT = (0.3, 0.6, 0.8)
@@ -116,8 +116,8 @@ def tables() -> dict[str, str]:
     return {
         f"{name}.hex": "".join(f"{row:x}\n" for row in [*table, *[0] * (depth - len(table))])
         for name, table, depth in (
-            ("vertices", vertices, 1024),
-            ("triangles", triangles, 2048),
+            ("vertices", vertices, 512),
+            ("triangles", triangles, 1024),
             ("angles", angles, 256),
             ("settings", words, 512),
         )
@@ -145,15 +145,15 @@ def turned(step: int) -> raster.Vertices:
 
 
 def drawn(step: int, model: int, level: int) -> Ints:
-    """(240, 320): what the frame buffer holds of a picture: {1, specular U0.4, diffuse U0.8}, 0 where nothing is."""
+    """(240, 320): what the frame buffer holds of a picture: {1, specular U0.4, diffuse U0.7}, 0 where nothing is."""
     found = raster.scan(turned(step), raster.View(COLUMNS, LINES))
     spans = raster.lines(found)
     normal, increment = (np.stack([spans[f"{n}.{a}"] for a in "xyz"], axis=-1) for n in ("normal", "increment"))
     values = {name: v for offset, word in settings(model, level).items() for name, v in unpack(offset, word).items()}
     told = golden_core.core(normal, increment, spans["count"], values, flat=spans["flat"], path_normals=0)
     _, column, line, depth = raster.depths(found)
-    depth = np.minimum(depth >> 12, 0xFFE)
-    light = 1 << 12 | told.pixels[:, 1] >> 12 << 8 | told.pixels[:, 0] >> 8
+    depth = np.minimum(depth >> 13, 0x7FE)
+    light = 1 << 11 | told.pixels[:, 1] >> 12 << 7 | told.pixels[:, 0] >> 9
     place = line * COLUMNS + column
     order = np.lexsort((np.arange(len(place)), depth, place))
     first = order[np.r_[True, np.diff(place[order]) != 0]]
@@ -165,9 +165,10 @@ def drawn(step: int, model: int, level: int) -> Ints:
 def picture(step: int, model: int, level: int) -> NDArray[np.uint8]:
     """(480, 640, 3): the picture on the screen."""
     word = drawn(step, model, level)
-    diffuse, specular = (word & 0xFF) * 0x101, (word >> 8 & 0xF) * 0x1111
+    diffuse = (word & 0x7F) << 9 | (word & 0x7F) << 2 | word >> 5 & 3
+    specular = (word >> 7 & 0xF) * 0x1111
     channels = [light.colour(diffuse, specular, AMBIENT[c], KD[c], KS[c]) >> 8 for c in range(3)]
-    seen = (word >> 12 == 1)[..., None]
+    seen = (word >> 11 == 1)[..., None]
     small = np.where(seen, np.stack(channels, axis=-1), BACKGROUND).astype(np.uint8)
     return small.repeat(2, axis=0).repeat(2, axis=1)
 
@@ -282,6 +283,7 @@ def main() -> None:
         "--lpf",
         "ulx3s.lpf",
     ]
+    # nextpnr ends with an error where a clock is missed
     tools.nextpnr_ecp5([*options, "--textcfg", f"{TOP}.config", "--report", "nextpnr.json"], WORK)
     pack_ = [str(Path(sys.executable).parent / "yowasp-ecppack"), "--compress", f"{TOP}.config", f"{TOP}.bit"]
     done = subprocess.run(pack_, cwd=WORK, env=environment(), text=True, capture_output=True)

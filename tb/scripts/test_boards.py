@@ -34,9 +34,9 @@ def test_decimate() -> None:
 
 
 def test_tables_fit() -> None:
-    """Places and normals in 16 bits at every angle, at most 1024 vertices and 2048 triangles, 15 words a choice."""
+    """Places and normals in 16 bits at every angle, at most 512 vertices and 1024 triangles, 15 words a choice."""
     head = ulx3s.head()
-    assert len(head.places) <= 1024 and len(head.faces) <= 2048
+    assert len(head.places) <= 512 and len(head.faces) <= 1024
     for step in range(256):
         sent = ulx3s.turned(step)
         assert sent.x.min() >= 0 and sent.x.max() < 1 << 17
@@ -45,7 +45,7 @@ def test_tables_fit() -> None:
         assert np.abs(sent.normal).max() < 1 << 16
     lines = {name: text.splitlines() for name, text in ulx3s.tables().items()}
     assert {name: len(rows) for name, rows in lines.items()} == {
-        "vertices.hex": 1024, "triangles.hex": 2048, "angles.hex": 256, "settings.hex": 512,
+        "vertices.hex": 512, "triangles.hex": 1024, "angles.hex": 256, "settings.hex": 512,
     }  # fmt: skip
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_frame: 320 x 240 pixels in block RAM: two pictures of 13 bits, one shown and one drawn, and depths of 12 bits.
+// board_frame: 320 x 240 pixels in block RAM: two pictures of 12 bits, one shown and one drawn, and depths of 11 bits.
 //
 // back_i: which one is drawn. write_i: light and depth of a pixel. clear_i: clear_at_i is empty, and as far as can be. depth_o: a
 // clock behind at_i; light_o: two clocks behind show_i, of the picture that is not drawn. Address: 320 line + column.
@@ -11,24 +11,24 @@ module board_frame #(
   input  logic        back_i,
   input  logic [16:0] at_i,
   input  logic        write_i,
-  input  logic [11:0] depth_i,
-  input  logic [12:0] light_i,
+  input  logic [10:0] depth_i,
+  input  logic [11:0] light_i,
   input  logic        clear_i,
   input  logic [16:0] clear_at_i,
-  output logic [11:0] depth_o,
+  output logic [10:0] depth_o,
   input  logic [16:0] show_i,
-  output logic [12:0] light_o
+  output logic [11:0] light_o
 );
-  logic [11:0] depths[0:PIXELS-1];
-  logic [12:0] lights_a[0:PIXELS-1];
-  logic [12:0] lights_b[0:PIXELS-1];
+  logic [10:0] depths[0:PIXELS-1];
+  logic [11:0] lights_a[0:PIXELS-1];
+  logic [11:0] lights_b[0:PIXELS-1];
   logic [16:0] to;
-  logic [11:0] depth;
-  logic [12:0] light, light_a, light_b;
+  logic [10:0] depth;
+  logic [11:0] light, light_a, light_b;
   logic put_a, put_b;
   assign to    = clear_i ? clear_at_i : at_i;
-  assign depth = clear_i ? 12'hfff : depth_i;
-  assign light = clear_i ? 13'd0 : light_i;
+  assign depth = clear_i ? 11'h7ff : depth_i;
+  assign light = clear_i ? 12'd0 : light_i;
   assign put_a = (clear_i || write_i) && !back_i;
   assign put_b = (clear_i || write_i) && back_i;
   always_ff @(posedge clk_i) begin

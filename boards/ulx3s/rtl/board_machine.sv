@@ -129,8 +129,8 @@ module board_machine #(
 
   // ---- frame buffer -----------------------------------------------------------------------------------------------
   logic [16:0] at, show_q;
-  logic [11:0] old, depth;
-  logic [12:0] light, shown_light;
+  logic [10:0] old, depth;
+  logic [11:0] light, shown_light;
   logic write;
   board_pixels u_pixels (
     .clk_i, .rst_i, .span_i(span), .spot_i(spot), .room_o(room), .s_axis_pixel_tvalid(pixel_valid),

@@ -4,10 +4,10 @@
 //   span_i, spot_i   a span enters the core, and where it begins: kept until its pixels come. room_o: another may enter
 //   s_axis_pixel_*   its pixels, {specular, diffuse} U0.16, in order
 //   at_o             address of the pixel, 320 line + column; depth_i: what the buffer has there, a clock later
-//   write_o          the pixel is nearer: depth_o, U0.12, and light_o = {1, specular U0.4, diffuse U0.8}
+//   write_o          the pixel is nearer: depth_o, U0.11, and light_o = {1, specular U0.4, diffuse U0.7}
 //   busy_o           spans are inside
 //
-// Depth is the span's, value + i increase at its pixel i, S1.30, from 0 to 4094 of U0.12. Three clocks a pixel, so that no pixel is
+// Depth is the span's, value + i increase at its pixel i, S1.30, from 0 to 2046 of U0.11. Three clocks a pixel, so that no pixel is
 // read before the one in front of it is written. Example: two pixels of equal depth at one place: the first one stays.
 module board_pixels (
   input  logic                               clk_i,
@@ -20,10 +20,10 @@ module board_pixels (
   input  logic [shade_pkg::PIXEL_DATA_W-1:0] s_axis_pixel_tdata,
   input  logic                               s_axis_pixel_tlast,
   output logic [                       16:0] at_o,
-  input  logic [                       11:0] depth_i,
+  input  logic [                       10:0] depth_i,
   output logic                               write_o,
-  output logic [                       11:0] depth_o,
-  output logic [                       12:0] light_o,
+  output logic [                       10:0] depth_o,
+  output logic [                       11:0] light_o,
   output logic                               busy_o
 );
   localparam int LOG2 = 6;
@@ -42,9 +42,9 @@ module board_pixels (
   logic [2:0] step_q;  // read, wait, compare: a bit each
   logic signed [31:0] z_q, increase_q;
   logic far;
-  assign far     = z_q[30] || z_q[29:18] == 12'hfff;
-  assign depth_o = z_q[31] ? 12'd0 : far ? 12'hffe : z_q[29:18];
-  assign light_o = {1'b1, s_axis_pixel_tdata[31:28], s_axis_pixel_tdata[15:8]};
+  assign far     = z_q[30] || z_q[29:19] == 11'h7ff;
+  assign depth_o = z_q[31] ? 11'd0 : far ? 11'h7fe : z_q[29:19];
+  assign light_o = {1'b1, s_axis_pixel_tdata[31:28], s_axis_pixel_tdata[15:9]};
   assign write_o = step_q[2] && depth_o < depth_i;
   assign s_axis_pixel_tready = step_q[2];
   always_ff @(posedge clk_i) begin

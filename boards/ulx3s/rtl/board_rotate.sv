@@ -17,9 +17,9 @@ module board_rotate #(
   input  logic [ 9:0] read_i,
   output logic [96:0] corner_o
 );
-  logic [95:0] vertices[0:1023];  // {nz, ny, nx, z, y, x}
+  logic [95:0] vertices[0:511];  // {nz, ny, nx, z, y, x}
   logic [35:0] angles[0:255];  // {sin, cos}, S1.16
-  logic [96:0] corners[0:1023];
+  logic [96:0] corners[0:511];
   initial $readmemh("vertices.hex", vertices);
   initial $readmemh("angles.hex", angles);
 
@@ -30,7 +30,7 @@ module board_rotate #(
   logic signed [15:0] x, y, z, nx, ny, nz;
   assign {nz, ny, nx, z, y, x} = vertex;
   always_ff @(posedge clk_i) begin
-    vertex <= vertices[at_q];
+    vertex <= vertices[at_q[8:0]];
     angle  <= angles[angle_i];
     step_q <= step_q == 4'd11 ? 4'd0 : step_q + 4'd1;
     if (busy_o && step_q == 4'd11) begin
@@ -75,14 +75,16 @@ module board_rotate #(
     if (step_q == 4'd6) z_q <= rounded(first_q - product);
     if (step_q == 4'd8) nx_q <= rounded(first_q + product);
     if (busy_o && step_q == 4'd10) begin
-      corners[at_q] <= {
+      corners[at_q[8:0]] <= {
         rounded(first_q - product), ny, nx_q, 16'(17'sd32768 - 17'(z_q)), 16'(17'sd30720 - 17'(y)), 17'(18'sd40960 + 18'(x_q))
       };
     end
   end
   logic [96:0] corner_q;
   always_ff @(posedge clk_i) begin
-    corner_q <= corners[read_i];
+    corner_q <= corners[read_i[8:0]];
     corner_o <= corner_q;
   end
+  logic unused_bits;
+  assign unused_bits = &{1'b0, read_i[9]};
 endmodule

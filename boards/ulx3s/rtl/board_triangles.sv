@@ -17,7 +17,7 @@ module board_triangles #(
   output logic [shade_pkg::VERTEX_DATA_W-1:0] m_axis_vertex_tdata,
   output logic                                m_axis_vertex_tlast
 );
-  logic [29:0] triangles[0:2047];
+  logic [29:0] triangles[0:1023];
   initial $readmemh("triangles.hex", triangles);
   logic [10:0] at_q;
   logic [1:0] corner_q;
@@ -28,7 +28,7 @@ module board_triangles #(
   assign taken = m_axis_vertex_tvalid && m_axis_vertex_tready;
   assign ends  = corner_q == 2'd2;
   always_ff @(posedge clk_i) begin
-    triangle_q <= triangles[at_q];
+    triangle_q <= triangles[at_q[9:0]];
     case (corner_q)
       2'd0: read_o <= triangle_q[9:0];
       2'd1: read_o <= triangle_q[19:10];

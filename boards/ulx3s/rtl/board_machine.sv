@@ -90,14 +90,19 @@ module board_machine #(
   logic span_valid, span_ready, room, core_ready;
   logic [shade_pkg::SPAN_DATA_W-1:0] span_data;
   shade_pkg::spot_t spot;
-  logic [63:0] unused_error;
-  logic [15:0] unused_culled, unused_empty;
+  shade_pkg::view_t view;
+  shade_pkg::skipped_t unused_skipped;
+  always_comb begin
+    view         = '0;
+    view.columns = shade_pkg::COUNT_W'(320);
+    view.lines   = shade_pkg::COUNT_W'(240);
+    view.cull    = shade_pkg::CULL_W'(shade_pkg::CULL_BACK);
+  end
   shade_spans u_spans (
-    .clk_i, .rst_i, .cull_i(shade_pkg::CULL_W'(shade_pkg::CULL_BACK)), .flat_i(1'b0),
-    .columns_i(shade_pkg::COUNT_W'(320)), .lines_i(shade_pkg::COUNT_W'(240)), .s_axis_vertex_tvalid(vertex_valid),
-    .s_axis_vertex_tready(vertex_ready), .s_axis_vertex_tdata(vertex), .s_axis_vertex_tlast(vertex_last),
-    .m_axis_span_tvalid(span_valid), .m_axis_span_tready(span_ready), .m_axis_span_tdata(span_data),
-    .m_axis_span_tuser(spot), .error_o(unused_error), .culled_o(unused_culled), .empty_o(unused_empty)
+    .clk_i, .rst_i, .view_i(view), .s_axis_vertex_tvalid(vertex_valid), .s_axis_vertex_tready(vertex_ready),
+    .s_axis_vertex_tdata(vertex), .s_axis_vertex_tlast(vertex_last), .m_axis_span_tvalid(span_valid),
+    .m_axis_span_tready(span_ready), .m_axis_span_tdata(span_data), .m_axis_span_tuser(spot),
+    .skipped_o(unused_skipped)
   );
   assign span_ready = core_ready && room;
   assign span       = span_valid && span_ready;

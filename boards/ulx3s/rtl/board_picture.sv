@@ -14,15 +14,20 @@ module board_picture (
   localparam int AMBIENT_R = 6095, AMBIENT_G = 4588, AMBIENT_B = 3801;  // 0.10 of 0.93, 0.70, 0.58
   localparam int KD_R = 48759, KD_G = 36700, KD_B = 30409;  // 0.80 of it
   localparam int KS = 22938;  // 0.35
-  logic [15:0] r, g, b;
+  shade_pkg::intensity_t light;
+  shade_pkg::colour_t weights;
+  shade_pkg::coloured_t pixel;
   logic some;
-  shade_colour u_colour (
-    .clk_i, .rst_i, .valid_i(light_i[11]), .diffuse_i({2'b00, light_i[6:0], light_i[6:0], light_i[6:5]}),
-    .specular_i({2'b00, {4{light_i[10:7]}}}), .ambient_r_i(17'(AMBIENT_R)), .ambient_g_i(17'(AMBIENT_G)),
-    .ambient_b_i(17'(AMBIENT_B)), .kd_r_i(17'(KD_R)), .kd_g_i(17'(KD_G)), .kd_b_i(17'(KD_B)), .ks_r_i(17'(KS)),
-    .ks_g_i(17'(KS)), .ks_b_i(17'(KS)), .valid_o(some), .r_o(r), .g_o(g), .b_o(b)
-  );
-  assign rgb_o = some ? {r[15:8], g[15:8], b[15:8]} : {8'd28, 8'd31, 8'd36};
+  always_comb begin
+    light.diffuse   = {2'b00, light_i[6:0], light_i[6:0], light_i[6:5]};
+    light.specular  = {2'b00, {4{light_i[10:7]}}};
+    weights.ambient = {17'(AMBIENT_B), 17'(AMBIENT_G), 17'(AMBIENT_R)};
+    weights.kd      = {17'(KD_B), 17'(KD_G), 17'(KD_R)};
+    weights.ks      = {3{17'(KS)}};
+  end
+  shade_colour u_colour (.clk_i, .light_i(light), .colour_i(weights), .pixel_o(pixel));
+  shade_valid #(.DEPTH(shade_pkg::LATENCY_COLOUR)) u_some (.clk_i, .rst_i, .valid_i(light_i[11]), .valid_o(some));
+  assign rgb_o = some ? {pixel.red[15:8], pixel.green[15:8], pixel.blue[15:8]} : {8'd28, 8'd31, 8'd36};
   logic unused_bits;
-  assign unused_bits = &{1'b0, r[7:0], g[7:0], b[7:0]};
+  assign unused_bits = &{1'b0, pixel};
 endmodule

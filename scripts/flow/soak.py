@@ -32,6 +32,7 @@ from polyshade.scripts.report import save
 from polyshade.sim import core, direct, patch
 from polyshade.sim.batch import client as workers
 from polyshade.sim.errors import UserError
+from polyshade.sim.frame import PATCH_MODELS
 from polyshade.sim.scene.camera import Screen
 from polyshade.sim.scene.raster import scan_convert
 from polyshade.sim.scene.triangles import Triangles
@@ -167,7 +168,7 @@ def core_spans(rng: np.random.Generator, seed: int) -> Outcome:
 def patches(rng: np.random.Generator, seed: int) -> Outcome:
     """Triangles for ``shade_patch``."""
     lanes = int(rng.choice([1, 2, 4, 8]))
-    surface, sent = material(rng, DIRECT_MODELS), triangles(rng, int(rng.integers(20, 200)))
+    surface, sent = material(rng, PATCH_MODELS), triangles(rng, int(rng.integers(20, 200)))
     options, bins = traffic(rng, int(sent.count.sum()) // lanes)
     made = patch.draw(sent, surface, direction(rng), lanes=lanes, seed=seed, **options)
     first = made.first_mismatch or made.counter_mismatches

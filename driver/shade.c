@@ -10,6 +10,7 @@
 #define STAGES 4                    /* squarings of the lobe at most */
 #define POINTS 4096                 /* of the grid on which a lobe is fitted */
 #define EXACT 1e-9                  /* an error of the fit that is none */
+#define WEIGHT 5                    /* of the planner, for Blinn-Phong: how many times kappa is halved at most */
 #define MARGIN (1.0 / 4096)         /* what quantization may add to a lobe's energy */
 #define FRESNEL_MIN (1.0 / 256)     /* automatic exposure makes up for no less */
 #define HALF_MIN (1.0 / 16)         /* nor for a smaller V.H */
@@ -338,7 +339,8 @@ int shade_words(const struct shade_material *m, const double light[3], struct sh
     double mantissa = rint(ldexp(frexp(most(sharpness, 2), &exponent), SHADE_SHARPNESS_F + 1));
     int carry = mantissa == ldexp(1, SHADE_SHARPNESS_F + 1);
     *next++ = (struct shade_word){SHADE_SHARPNESS, FIELD(SHARPNESS_SHARPNESS, carry ? mantissa / 2 : mantissa)
-                                                 | FIELD(SHARPNESS_SHARPNESS_EXP, exponent - 1 + carry)};
+                                                 | FIELD(SHARPNESS_SHARPNESS_EXP, exponent - 1 + carry)
+                                                 | FIELD(SHARPNESS_WEIGHT, m->model == SHADE_MODEL_BLINN && !m->paper ? WEIGHT : 0)};
 
     /* material */
     *next++ = (struct shade_word){SHADE_MODEL, FIELD(MODEL_MODEL, m->model) | FIELD(MODEL_COSINE, modified(m->energy))};

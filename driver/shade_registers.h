@@ -84,6 +84,8 @@
 #define SHADE_SHARPNESS_SHARPNESS_W            17            /* U1.16: n of the cos^n that turns as fast as the highlight, mantissa */
 #define SHADE_SHARPNESS_SHARPNESS_EXP_LSB      24
 #define SHADE_SHARPNESS_SHARPNESS_EXP_W        4             /* and exponent, 0 to 12 */
+#define SHADE_SHARPNESS_WEIGHT_LSB             28
+#define SHADE_SHARPNESS_WEIGHT_W               3             /* how many times kappa is halved at most where the highlight is far; 0: not at all */
 #define SHADE_T1                               0x044         /* rw */
 #define SHADE_T1_RESET                         0x0000c000u
 #define SHADE_T1_T1_LSB                        0

@@ -112,6 +112,7 @@ PHASE_W = 3  # the clock among these
 CHANNELS = 2  # diffuse, specular
 NODE_COUNT = 4
 LOG2_MAX = 12  # a span has at most 2^12 pixels
+RECORD_LOG2 = 5  # a record has at most 2^5, by default: that is how wide the forward differences are
 COUNT_W = 13
 PLACE_W = 12  # a column or a line of the frame, which has at most 2^12 of each
 DEGREE_W = 2
@@ -130,6 +131,8 @@ KAPPA_F = 20  # kappa and its thresholds, U11.20
 KAPPA_W = 31
 SHARPNESS_F = 16  # mantissa of the sharpness n, U1.16 in [1, 2)
 SHARPNESS_EXP_W = 4  # its exponent, 0 .. 12
+WEIGHT_W = 3  # how many times kappa is halved at most where the highlight is far
+WEIGHT = 5  # for the highlight of Blinn-Phong
 LOG2_W = 4  # the number of an arc's pixels as a power of two
 LOG2_MIN = 2  # nodes at a quarter of a record are pixels: 4 pixels at least
 
@@ -296,7 +299,7 @@ LATENCY_LIGHT_FOLDED = LATENCY_ANGLES_FOLDED + LATENCY_LOBE_FOLDED + LATENCY_GAI
 LATENCY_LIGHT_LOCAL = LATENCY_HALFWAY + 1 + LATENCY_VERSINE + LATENCY_FACTOR + LATENCY_GAIN
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
 LATENCY_KAPPA = 4 + LATENCY_MUL + 2 + LATENCY_MUL + 4  # common shift, squares, sums, product, shift, range
-LATENCY_PLANNER = LATENCY_KAPPA + 14  # see shade_planner
+LATENCY_PLANNER = LATENCY_KAPPA + 15  # see shade_planner
 LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 5  # the choice of a run, its step, the run, its node, the rounding
 
@@ -312,7 +315,12 @@ LATENCY_LINE = line_latency(1)  # span to its first normal
 LATENCY_LINE_FOLDED = line_latency(6)
 LATENCY_POLY_SPAN_HORNER = 2 + LATENCY_COEF + LATENCY_HORNER_PIPE + 1 + LATENCY_FIFO  # span in, walk, ..., clamp, FIFO
 LATENCY_POLY_SPAN_FDIFF = 2 + LATENCY_COEF + LATENCY_FDIFF + 1 + LATENCY_FIFO
-LATENCY_RECORD = 1 + LATENCY_LIGHT + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF  # normal to pixel
+LATENCY_POLY_START = (
+    3 + LATENCY_THIRD + 5
+)  # differences, two levels of adders, x/3, C, two shifter levels, two of adders
+LATENCY_POLY_STATE = 3  # the state, the rounding, the clamp
+LATENCY_POLY_LINE = LATENCY_POLY_START + LATENCY_POLY_STATE + 1 + LATENCY_FIFO_BLOCK  # one: the specular channel
+LATENCY_RECORD = 1 + LATENCY_LIGHT + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_LINE  # normal to pixel
 LATENCY_LANE = LATENCY_LINE + LATENCY_RECORD
 LATENCY_LANE_NORMALS = LATENCY_PIXEL_NORMALS + LATENCY_RECORD  # the path of normals
 
@@ -320,7 +328,7 @@ LATENCY_LANE_NORMALS = LATENCY_PIXEL_NORMALS + LATENCY_RECORD  # the path of nor
 def lane_latency(fold: int) -> int:
     """Clocks from a span to its first pixel in ``shade_lane``, FOLD = 2 .. 8; those of the lobe are longer with 5."""
     light = LATENCY_LIGHT_FOLDED + (5 if fold == 5 else 0)
-    return line_latency(fold) + 1 + light + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_SPAN_FDIFF
+    return line_latency(fold) + 1 + light + LATENCY_COLLECT + LATENCY_FIFO_BLOCK + LATENCY_POLY_LINE
 
 
 LATENCY_LANE_FOLDED = lane_latency(6)
@@ -335,6 +343,7 @@ LATENCY_PHONG = 1 + LATENCY_INCREMENT + LATENCY_NORMALIZE + LATENCY_LIGHT + 1 + 
 
 # ---- products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric ------------
 PRODUCTS_KAPPA = 4  # for each new increment
+PRODUCTS_WEIGHT = 3  # for each span
 PRODUCTS_NORMALIZE = 11
 PRODUCTS_UNIT = 8
 PRODUCTS_LIGHT = 15  # shade_light without the following two

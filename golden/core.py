@@ -63,7 +63,7 @@ def collect(nodes: Nodes, intensity: ArrayLike) -> Int:
 def lane(
     n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], *, flat: ArrayLike = 0,
     cosine: ArrayLike = 0, evaluator: int = k.EVALUATOR_FDIFF, form: int = k.FORM_REFINED, reflect: int = 1,
-    divide: int = 1, path_normals: int = 1,
+    divide: int = 1, path_normals: int = 1, log2_max: int = k.RECORD_LOG2,
 ) -> Drawn:  # fmt: skip
     """The pixels of spans of 1 .. 4096 pixels: ``n``, ``g`` (S, 3) S2.29, normal and increment (``shade_lane``).
 
@@ -85,7 +85,7 @@ def lane(
         diffuse, specular, flags = light(*normal.T, draw, form, reflect, divide)
         return Drawn(saturate(np.stack([diffuse, specular], -1), k.PIXEL_W), span, flags, len(span))
 
-    nodes, normal, zero, short = line(n, g, count, draw, flat)
+    nodes, normal, zero, short = line(n, g, count, draw, flat, log2_max)
     diffuse, specular, flags = light(*normal.T, draw, form, reflect, divide)
     flags = flags | zero << NODE_FLAGS.leaf("normal_zero").lsb | short << NODE_FLAGS.leaf("normal_short").lsb
     records = collect(nodes, np.stack([diffuse, specular], -1))
@@ -175,18 +175,19 @@ def products(
 ) -> int:
     """How many products of two 18-bit numbers ``shade_lane`` executes for what it has drawn on the path of polynomials.
 
-    kappa's of every span whose increment is not that of the span before, those of a normal and of its light at every
-    node, Horner's at every pixel. A wide multiplication counts as the two that it is cut into; squares in the fabric
-    count as well.
+    kappa's of every span whose increment is not that of the span before, its weight's of every span, those of a normal
+    and of its light at every node, Horner's at every pixel. A wide multiplication counts as the two that it is cut
+    into; squares in the fabric count as well.
 
-    >>> products([[0, 0, 0]], lane([[0, 0, 1 << 29]], [[0, 0, 0]], [2], {}), reflect=0, divide=0)  # 4 + 2 (8 + 15)
-    50
+    >>> products([[0, 0, 0]], lane([[0, 0, 1 << 29]], [[0, 0, 0]], [2], {}), reflect=0, divide=0)  # 4 + 3 + 2 (8 + 15)
+    53
     """
     (g,) = integers(g)
     increments = len(g[:1]) + int(np.count_nonzero(np.any(g[1:] != g[:-1], axis=-1)))
     evaluation = k.CHANNELS * k.PRODUCTS_HORNER if evaluator == k.EVALUATOR_HORNER else 0
     return (
         k.PRODUCTS_KAPPA * increments
+        + k.PRODUCTS_WEIGHT * len(g)
         + (k.PRODUCTS_UNIT + _light_products(reflect, divide)) * len(drawn.flags)
         + evaluation * len(drawn.pixels)
     )
@@ -208,6 +209,7 @@ def _light_products(reflect: int, divide: int) -> int:
 class RegisterFile:
     """The registers as a bus sees them (``shade_registers``): ``words`` by name, without STATUS.busy.
 
+    ``built``: parameters of ``registers.built``.
     Two lowest bits of an offset do not count. Accesses tell by False that they are answered with an error.
 
     >>> file = RegisterFile()
@@ -215,9 +217,14 @@ class RegisterFile:
     (True, (98304, True), True, (1347635268, True), (0, False))
     """
 
-    def __init__(self) -> None:
+    def __init__(self, **built: int) -> None:
         self.at = {register.offset: register for register in registers.every()}
-        self.words = {register.name: register.reset for register in self.at.values()}
+        there = {field.name for field in registers.built(**built)}
+        self.kept = {
+            register.name: [field for field in register.fields if register.access == "ro" or field.name in there]
+            for register in self.at.values()
+        }
+        self.words = {name: sum(field.reset << field.lsb for field in fields) for name, fields in self.kept.items()}
 
     def read(self, offset: int, busy: bool = False) -> tuple[int, bool]:
         """The word at a byte offset, 0 and an error where there is no register."""
@@ -239,8 +246,8 @@ class RegisterFile:
             return False
         if clears:
             self.clear()
-        kept = (field for field in register.fields if field.name != "clear")
-        self.words[register.name] = word & sum((1 << field.width) - 1 << field.lsb for field in kept)
+        kept = sum((1 << field.width) - 1 << field.lsb for field in self.kept[register.name])
+        self.words[register.name] = word & kept
         return True
 
     def clear(self) -> None:

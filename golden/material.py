@@ -297,13 +297,17 @@ def light_registers(light: ArrayLike) -> dict[str, int]:
 
 
 def planner_registers(material: Material) -> dict[str, int]:
-    """sharpness, U1.16 in [1, 2), and sharpness_exp, 0 .. 12, of the planner.
+    """sharpness, U1.16 in [1, 2), sharpness_exp, 0 .. 12, and weight of the planner.
+
+    Blinn-Phong's highlight alone is dark where N.H is small; in the paper's form there is no weight.
 
     >>> planner_registers(Material("phong", 48))  # 4 n = 192 = 1.5 * 2^7
-    {'sharpness': 98304, 'sharpness_exp': 7}
+    {'sharpness': 98304, 'sharpness_exp': 7, 'weight': 0}
     """
     sharpness = reference.sharpness(material.model, material.shininess, material.roughness)
-    return dict(zip(("sharpness", "sharpness_exp"), quantize_sharpness(sharpness), strict=True))
+    mantissa, exponent = quantize_sharpness(sharpness)
+    weighed = material.model == "blinn" and material.form == "refined"
+    return {"sharpness": mantissa, "sharpness_exp": exponent, "weight": k.WEIGHT if weighed else 0}
 
 
 def colour_registers(material: Material) -> dict[str, int]:

@@ -17,7 +17,7 @@ thresholds are U11.20. Mirrors ``rtl/plan``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -101,6 +101,22 @@ def kappa(gx: ArrayLike, gy, gz, log2: ArrayLike, mantissa: ArrayLike, exponent:
     return np.where(drop < 0, KAPPA_MAX, np.minimum(value, KAPPA_MAX))
 
 
+def weight(n: ArrayLike, h: ArrayLike, exponent: ArrayLike, kappa: ArrayLike, limit: ArrayLike) -> Int:
+    """How many times kappa may be halved because the highlight is far (``shade_weight``).
+
+    floor((x 2^exponent - 4 kappa) / 8) in 0 .. limit, x = 1 - N.H cut to [0, 2): of the first normal ``n`` (S, 3)
+    S2.29, of which 15 fraction bits count, and ``h`` (3,) S1.16; kappa U11.20, cut to 2 fraction bits.
+
+    >>> int(weight([[0, 0, int(0.9 * 2**29)]], [0, 0, 1 << 16], 9, 2 << 20, 7)[0])
+    5
+    """
+    n, h = integers(n, h)
+    exponent, kappa, limit = integers(exponent, kappa, limit)
+    dot = round(((n >> k.STEP_W - k.INTENSITY_W) * h).sum(axis=-1), k.NODE_F)
+    far = np.clip(ONE - dot, 0, 2 * ONE - 1) << exponent >> k.INTENSITY_F
+    return np.clip(far - (kappa >> KAPPA_F - 2) >> 3, 0, limit)
+
+
 class Plan(NamedTuple):
     """What a span becomes: ``main`` records of ``degree`` with 2^log2 pixels each, and a last one (arrays (S,))."""
 
@@ -112,15 +128,17 @@ class Plan(NamedTuple):
     last_degree: Int
 
 
-def segments(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS) -> Plan:
-    """The plan of spans of ``count`` pixels whose arc of 2^span_log2(count) pixels has ``kappa`` (U11.20).
+def segments(
+    count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS, log2_max: int = k.LOG2_MAX
+) -> Plan:
+    """The plan of spans of ``count`` pixels whose arc of 2^min(span_log2(count), log2_max) has ``kappa`` (U11.20).
 
     >>> [int(v) for v in segments(20, 4 << 20)]  # 4 -> two segments with 1 each
     [1, 4, 3, 4, 2, 2]
     """
     count, kappa = integers(count, kappa)
     t1, t2, t3 = thresholds
-    whole = span_log2(count)
+    whole = np.minimum(span_log2(count), log2_max)
     halvings = sum((kappa >> 2 * h > t3).astype(np.int64) for h in range(k.KAPPA_W // 2 + 1))
     direct = halvings > np.maximum(whole - k.LOG2_MIN, 0)
     log2 = np.where(direct, k.LOG2_MIN, whole - halvings)
@@ -139,23 +157,29 @@ def segments(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int
 def planner(
     gx: ArrayLike, gy, gz, count: ArrayLike, mantissa: int, exponent: int,
     thresholds: tuple[int, int, int] = THRESHOLDS, fixed_degree: int = 0, flat: ArrayLike = 0,
+    log2_max: int = k.RECORD_LOG2, far: Callable[[Int], ArrayLike] = np.zeros_like,
 ) -> Plan:  # fmt: skip
     """The plan of spans with the increment g, S2.29, and ``count`` pixels, 0 .. 8191 (``shade_planner``).
 
-    ``kappa``, then ``segments``. ``fixed_degree`` 1 .. 3: one record a span, as the paper has it; up to 4 pixels are
-    lit directly. ``flat``: of these spans kappa counts as 0: one record of degree 1, whatever the fixed degree.
+    ``kappa``, then ``segments``. ``fixed_degree`` 1 .. 3: records of this degree, one a span where that has up to
+    2^log2_max + 1 pixels, as the paper has it; up to 4 pixels are lit directly. ``flat``: kappa of them counts as
+    0: records of degree 1, whatever the fixed degree. ``far``: how many times kappa is halved, from kappa.
 
     >>> [int(v) for v in planner(1 << 22, 0, 0, 33, 1 << 16, 7)]  # kappa = 4
     [1, 4, 3, 17, 4, 3]
     """
     count, flat = integers(count, flat)
     single = (flat > 0) | (fixed_degree > 0)
-    arc = np.where(single, 0, kappa(gx, gy, gz, span_log2(count), mantissa, exponent))
-    planned = segments(count, arc, thresholds)
+    whole = np.minimum(span_log2(count), log2_max)
+    arc = kappa(gx, gy, gz, whole, mantissa, exponent)
+    arc = np.where(single, 0, arc >> far(arc))
+    planned = segments(count, arc, thresholds, log2_max)
     if not fixed_degree:
         return planned
-    degree = np.where(count <= k.DIRECT_MAX, k.DEGREE_DIRECT, fixed_degree)
-    return planned._replace(last_degree=np.where(flat, planned.last_degree, degree))
+    degree = np.where(planned.last_count <= k.DIRECT_MAX, k.DEGREE_DIRECT, fixed_degree)
+    return planned._replace(
+        degree=np.where(flat, planned.degree, fixed_degree), last_degree=np.where(flat, planned.last_degree, degree)
+    )
 
 
 def plan(count: ArrayLike, kappa: ArrayLike, thresholds: tuple[int, int, int] = THRESHOLDS) -> Records:
@@ -293,7 +317,10 @@ def node_walk(n: ArrayLike, g: ArrayLike, main, log2, degree, last_count, last_l
     )
 
 
-def line(n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], flat: ArrayLike = 0):
+def line(
+    n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], flat: ArrayLike = 0,
+    log2_max: int = k.RECORD_LOG2,
+):  # fmt: skip
     """(nodes, unit normals (T, 3) S1.16, 1 where one is zero, too short (T,)) of spans (``shade_line``).
 
     ``draw``: settings by the names of ``golden.registers``. ``flat``: with Lambert's light alone one line without
@@ -304,6 +331,8 @@ def line(n: ArrayLike, g: ArrayLike, count: ArrayLike, draw: Mapping[str, int], 
     flat = np.broadcast_to(flat & (draw["model"] == k.MODEL_LAMBERT), np.shape(count))
     thresholds = tuple(draw[name] for name in ("t1", "t2", "t3"))
     sharpness = draw["sharpness"], draw["sharpness_exp"]
-    nodes = node_walk(n, g, *planner(*g.T, count, *sharpness, thresholds, draw["fixed_degree"], flat))
+    h = [draw[name] for name in ("hx", "hy", "hz")]
+    far = lambda arc: weight(n, h, draw["sharpness_exp"], arc, draw["weight"])  # noqa: E731
+    nodes = node_walk(n, g, *planner(*g.T, count, *sharpness, thresholds, draw["fixed_degree"], flat, log2_max, far))
     *normal, zero, short = unit(*nodes.vector.T, flat[nodes.span[nodes.record]])
     return nodes, np.stack(normal, axis=-1), zero, short

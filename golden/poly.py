@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import contract as k
-from .fixed import Int, integers, round, saturate, third
+from .fixed import Int, integers, round, saturate, third, wrap
 from .stream import walk
 from .types import RECORD, pack
 
@@ -179,6 +179,43 @@ def poly_span(
     else:
         value = fdiff(a, b, c, d, log2, j[:, None])
     return saturate(value, k.PIXEL_W), span
+
+
+def poly_start(degree: ArrayLike, i1, i2, i3, i4, log2: ArrayLike, log2_max: int = k.RECORD_LOG2):
+    """(d1, d2, d3): first forward differences of a channel's polynomial, h = 2^-log2 (``shade_poly_start``).
+
+    In units of 2^-3 log2_max ulp, modulo 2^(20 + 3 log2_max), with the coefficients of ``coef``. Degree 1 .. 3.
+
+    >>> [int(v) >> 15 for v in poly_start(1, 0, 32768, 0, 0, 1)]  # a line to 1/2 in two steps
+    [16384, 0, 0]
+    """
+    degree, log2 = integers(degree, log2)
+    a, b, c, _ = coef(degree, i1, i2, i3, i4)
+    e = log2_max - log2
+    cubic, square, line = a << 3 * e, b << 2 * e + log2_max, c << e + 2 * log2_max
+    differences = cubic + square + line, 6 * cubic + 2 * square, 6 * cubic
+    return tuple(wrap(d, k.INTENSITY_W + 2 + 3 * log2_max) for d in differences)
+
+
+def poly_state(node: ArrayLike, d1, d2, d3, j: ArrayLike, log2_max: int = k.RECORD_LOG2) -> Int:
+    """Pixel j of what begins with the node and these differences, U0.16 (``shade_poly_state``).
+
+    >>> [int(v) for v in poly_state(0, 16384 << 15, 0, 0, np.arange(3))]
+    [0, 16384, 32768]
+    """
+    node, d1, d2, d3, j = integers(node, d1, d2, d3, j)
+    f, width = 3 * log2_max, k.INTENSITY_W + 2
+    exact = (node << f) + j * d1 + (j * (j - 1) >> 1) * d2 + (j * (j - 1) * (j - 2) // 6) * d3
+    return saturate(wrap(round(wrap(exact, width + f), f), width), k.PIXEL_W)
+
+
+def poly_line(nodes: ArrayLike, degree: ArrayLike, count: ArrayLike) -> tuple[Int, Int]:
+    """``poly_span`` by forward differences of records that are no shorter than a planner's (``shade_poly_line``).
+
+    >>> poly_line([[[0, 32768, 0, 0], [16384, 16384, 0, 0]]], [1], [3])[0].tolist()
+    [[0, 16384], [16384, 16384], [32768, 16384]]
+    """
+    return poly_span(nodes, degree, count, evaluator=k.EVALUATOR_FDIFF)
 
 
 def pack_records(

@@ -135,7 +135,11 @@ GROUPS: dict[str, tuple[Register, ...]] = {
     "Planner": _group(
         0x40,
         "rw",
-        SHARPNESS=(_put("planner.sharpness", 0, _ONE), _put("planner.sharpness_exp", 24, 1)),
+        SHARPNESS=(
+            _put("planner.sharpness", 0, _ONE),
+            _put("planner.sharpness_exp", 24, 1),
+            _put("planner.weight", 28),
+        ),
         T1=_put("planner.t1", 0, THRESHOLDS[0]),
         T2=_put("planner.t2", 0, THRESHOLDS[1]),
         T3=_put("planner.t3", 0, THRESHOLDS[2]),
@@ -181,6 +185,22 @@ def settings() -> Iterator[Field]:
     for register in every():
         if register.access == "rw":
             yield from (field for field in register.fields if field.name != "clear")
+
+
+def built(divide: int = 1, path_normals: int = 1, colour: int = 1) -> Iterator[Field]:
+    """The settings that a core with these parameters has; others read 0, and writing them does nothing.
+
+    >>> sorted({field.name for field in settings()} - {field.name for field in built(divide=0)})
+    ['f0', 'inv_n', 'inv_n_exp', 'vh']
+    """
+    out: set[str] = set()
+    if not divide:
+        out |= {"material.inv_n", "material.inv_n_exp", "material.f0", "light.vh"}
+    if not path_normals:
+        out |= {"control.path", "control.variant", "planner.threshold"}
+    if not colour:
+        out |= {field.path for field in settings() if "colour" in field.path}
+    yield from (field for field in settings() if field.path not in out)
 
 
 def faults() -> Iterator[Field]:

@@ -760,6 +760,7 @@ PLANNER = Struct(
     (
         Field("sharpness", k.SHARPNESS_F + 1, "n of the cos^n that turns as fast as the highlight, mantissa", "U1.16"),
         Field("sharpness_exp", k.SHARPNESS_EXP_W, "and exponent, 0 to 12"),
+        Field("weight", k.WEIGHT_W, "how many times kappa is halved at most where the highlight is far; 0: not at all"),
         Field("t1", k.KAPPA_W, "kappa up to which a line is enough", "U11.20"),
         Field("t2", k.KAPPA_W, "kappa up to which a parabola is enough", "U11.20"),
         Field("t3", k.KAPPA_W, "kappa up to which a cubic is enough", "U11.20"),

@@ -34,6 +34,9 @@ stream/shade_walk.sv
 stream/shade_widen.sv
 poly/shade_span_walk.sv
 poly/shade_poly_span.sv
+poly/shade_poly_start.sv
+poly/shade_poly_state.sv
+poly/shade_poly_line.sv
 normal/shade_normalize.sv
 normal/shade_dot3.sv
 normal/shade_scale3.sv
@@ -46,6 +49,7 @@ normal/shade_node_chain.sv
 normal/shade_metric.sv
 plan/shade_criterion.sv
 plan/shade_kappa.sv
+plan/shade_weight.sv
 plan/shade_planner.sv
 plan/shade_stretch.sv
 plan/shade_node_walk.sv

@@ -130,6 +130,7 @@ package shade_pkg;
   localparam int CHANNELS = 2;  // diffuse, specular
   localparam int NODE_COUNT = 4;
   localparam int LOG2_MAX = 12;  // a span has at most 2^12 pixels
+  localparam int RECORD_LOG2 = 5;  // a record has at most 2^5, by default: that is how wide the forward differences are
   localparam int COUNT_W = 13;
   localparam int PLACE_W = 12;  // a column or a line of the frame, which has at most 2^12 of each
   localparam int DEGREE_W = 2;
@@ -148,6 +149,8 @@ package shade_pkg;
   localparam int KAPPA_W = 31;
   localparam int SHARPNESS_F = 16;  // mantissa of the sharpness n, U1.16 in [1, 2)
   localparam int SHARPNESS_EXP_W = 4;  // its exponent, 0 .. 12
+  localparam int WEIGHT_W = 3;  // how many times kappa is halved at most where the highlight is far
+  localparam int WEIGHT = 5;  // for the highlight of Blinn-Phong
   localparam int LOG2_W = 4;  // the number of an arc's pixels as a power of two
   localparam int LOG2_MIN = 2;  // nodes at a quarter of a record are pixels: 4 pixels at least
 
@@ -313,18 +316,21 @@ package shade_pkg;
   localparam int LATENCY_LIGHT_LOCAL = 76;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
-  localparam int LATENCY_PLANNER = 28;  // see shade_planner
+  localparam int LATENCY_PLANNER = 29;  // see shade_planner
   localparam int LATENCY_COLLECT = 1;  // the record
   localparam int LATENCY_NODE_WALK = 5;  // the choice of a run, its step, the run, its node, the rounding
-  localparam int LATENCY_LINE = 55;  // span to its first normal
-  localparam int LATENCY_LINE_FOLDED = 70;
+  localparam int LATENCY_LINE = 56;  // span to its first normal
+  localparam int LATENCY_LINE_FOLDED = 76;
   localparam int LATENCY_POLY_SPAN_HORNER = 23;  // span in, walk, ..., clamp, FIFO
   localparam int LATENCY_POLY_SPAN_FDIFF = 20;
+  localparam int LATENCY_POLY_START = 13;
+  localparam int LATENCY_POLY_STATE = 3;  // the state, the rounding, the clamp
+  localparam int LATENCY_POLY_LINE = 20;  // one: the specular channel
   localparam int LATENCY_RECORD = 86;  // normal to pixel
-  localparam int LATENCY_LANE = 141;
+  localparam int LATENCY_LANE = 142;
   localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
-  localparam int LATENCY_LANE_FOLDED = 151;
-  localparam int LATENCY_CORE = 142;  // the door
+  localparam int LATENCY_LANE_FOLDED = 157;
+  localparam int LATENCY_CORE = 143;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums
   localparam int LATENCY_PATCH_LINES = 4;  // two bits of X each
@@ -335,6 +341,7 @@ package shade_pkg;
 
   // products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric
   localparam int PRODUCTS_KAPPA = 4;  // for each new increment
+  localparam int PRODUCTS_WEIGHT = 3;  // for each span
   localparam int PRODUCTS_NORMALIZE = 11;
   localparam int PRODUCTS_UNIT = 8;
   localparam int PRODUCTS_LIGHT = 15;  // shade_light without the following two
@@ -389,6 +396,7 @@ package shade_pkg;
   localparam int REG_ERRORS = 52;  // 0x034, ro
   localparam int REG_SHARPNESS = 64;  // 0x040, rw
   localparam int REG_SHARPNESS_SHARPNESS_EXP_LSB = 24;
+  localparam int REG_SHARPNESS_WEIGHT_LSB = 28;
   localparam int REG_SHARPNESS_RESET = 16842752;  // 0x01010000
   localparam int REG_T1 = 68;  // 0x044, rw
   localparam int REG_T1_RESET = 49152;  // 0x0000c000
@@ -498,12 +506,12 @@ package shade_pkg;
   localparam int FACTOR_BITS = 43;
   localparam int COEF_BITS = 93;
   localparam int CONTROL_BITS = 7;
-  localparam int PLANNER_BITS = 132;
+  localparam int PLANNER_BITS = 135;
   localparam int HIGHLIGHT_BITS = 62;
   localparam int MATERIAL_BITS = 127;
   localparam int LIGHT_BITS = 125;
   localparam int COLOUR_BITS = 153;
-  localparam int DRAW_BITS = 544;
+  localparam int DRAW_BITS = 547;
   localparam int COUNTS_BITS = 15;
   localparam int PAINTED_BITS = 65;
   localparam int NODE_FLAGS_BITS = 6;
@@ -1051,6 +1059,7 @@ package shade_pkg;
     logic [30:0] t3;  // U11.20: kappa up to which a cubic is enough
     logic [30:0] t2;  // U11.20: kappa up to which a parabola is enough
     logic [30:0] t1;  // U11.20: kappa up to which a line is enough
+    logic [2:0] weight;  // how many times kappa is halved at most where the highlight is far; 0: not at all
     logic [3:0] sharpness_exp;  // and exponent, 0 to 12
     logic [16:0] sharpness;  // U1.16: n of the cos^n that turns as fast as the highlight, mantissa
   } planner_t;
@@ -1177,6 +1186,7 @@ package shade_pkg;
     31'd1048576,  // planner.t3
     31'd327680,  // planner.t2
     31'd49152,  // planner.t1
+    3'd0,  // planner.weight
     4'd1,  // planner.sharpness_exp
     17'd65536,  // planner.sharpness
     2'd0,  // control.fixed_degree
@@ -1280,38 +1290,39 @@ package shade_pkg;
     draw_word[8+:2] |= {2{select[35]}} & draw[5+:2];  // fixed_degree
     draw_word[0+:17] |= {17{select[27]}} & draw[7+:17];  // sharpness
     draw_word[24+:4] |= {4{select[27]}} & draw[24+:4];  // sharpness_exp
-    draw_word[0+:31] |= {31{select[26]}} & draw[28+:31];  // t1
-    draw_word[0+:31] |= {31{select[25]}} & draw[59+:31];  // t2
-    draw_word[0+:31] |= {31{select[24]}} & draw[90+:31];  // t3
-    draw_word[0+:18] |= {18{select[23]}} & draw[121+:18];  // threshold
-    draw_word[0+:3] |= {3{select[22]}} & draw[139+:3];  // model
-    draw_word[8+:1] |= {1{select[22]}} & draw[142+:1];  // cosine
-    draw_word[0+:21] |= {21{select[21]}} & draw[143+:21];  // k1
-    draw_word[0+:18] |= {18{select[20]}} & draw[164+:18];  // k2
-    draw_word[0+:17] |= {17{select[19]}} & draw[182+:17];  // xmax
-    draw_word[24+:3] |= {3{select[19]}} & draw[199+:3];  // shift
-    draw_word[28+:3] |= {3{select[19]}} & draw[202+:3];  // power
-    draw_word[0+:17] |= {17{select[18]}} & draw[205+:17];  // inv_n
-    draw_word[24+:4] |= {4{select[18]}} & draw[222+:4];  // inv_n_exp
-    draw_word[0+:17] |= {17{select[17]}} & draw[226+:17];  // gain
-    draw_word[24+:6] |= {6{select[17]}} & draw[243+:6];  // gain_exp
-    draw_word[0+:17] |= {17{select[16]}} & draw[249+:17];  // f0
-    draw_word[0+:18] |= {18{select[15]}} & draw[266+:18];  // lx
-    draw_word[0+:18] |= {18{select[14]}} & draw[284+:18];  // ly
-    draw_word[0+:18] |= {18{select[13]}} & draw[302+:18];  // lz
-    draw_word[0+:18] |= {18{select[12]}} & draw[320+:18];  // hx
-    draw_word[0+:18] |= {18{select[11]}} & draw[338+:18];  // hy
-    draw_word[0+:18] |= {18{select[10]}} & draw[356+:18];  // hz
-    draw_word[0+:17] |= {17{select[9]}} & draw[374+:17];  // vh
-    draw_word[0+:17] |= {17{select[8]}} & draw[391+:17];  // ambient_r
-    draw_word[0+:17] |= {17{select[7]}} & draw[408+:17];  // ambient_g
-    draw_word[0+:17] |= {17{select[6]}} & draw[425+:17];  // ambient_b
-    draw_word[0+:17] |= {17{select[5]}} & draw[442+:17];  // kd_r
-    draw_word[0+:17] |= {17{select[4]}} & draw[459+:17];  // kd_g
-    draw_word[0+:17] |= {17{select[3]}} & draw[476+:17];  // kd_b
-    draw_word[0+:17] |= {17{select[2]}} & draw[493+:17];  // ks_r
-    draw_word[0+:17] |= {17{select[1]}} & draw[510+:17];  // ks_g
-    draw_word[0+:17] |= {17{select[0]}} & draw[527+:17];  // ks_b
+    draw_word[28+:3] |= {3{select[27]}} & draw[28+:3];  // weight
+    draw_word[0+:31] |= {31{select[26]}} & draw[31+:31];  // t1
+    draw_word[0+:31] |= {31{select[25]}} & draw[62+:31];  // t2
+    draw_word[0+:31] |= {31{select[24]}} & draw[93+:31];  // t3
+    draw_word[0+:18] |= {18{select[23]}} & draw[124+:18];  // threshold
+    draw_word[0+:3] |= {3{select[22]}} & draw[142+:3];  // model
+    draw_word[8+:1] |= {1{select[22]}} & draw[145+:1];  // cosine
+    draw_word[0+:21] |= {21{select[21]}} & draw[146+:21];  // k1
+    draw_word[0+:18] |= {18{select[20]}} & draw[167+:18];  // k2
+    draw_word[0+:17] |= {17{select[19]}} & draw[185+:17];  // xmax
+    draw_word[24+:3] |= {3{select[19]}} & draw[202+:3];  // shift
+    draw_word[28+:3] |= {3{select[19]}} & draw[205+:3];  // power
+    draw_word[0+:17] |= {17{select[18]}} & draw[208+:17];  // inv_n
+    draw_word[24+:4] |= {4{select[18]}} & draw[225+:4];  // inv_n_exp
+    draw_word[0+:17] |= {17{select[17]}} & draw[229+:17];  // gain
+    draw_word[24+:6] |= {6{select[17]}} & draw[246+:6];  // gain_exp
+    draw_word[0+:17] |= {17{select[16]}} & draw[252+:17];  // f0
+    draw_word[0+:18] |= {18{select[15]}} & draw[269+:18];  // lx
+    draw_word[0+:18] |= {18{select[14]}} & draw[287+:18];  // ly
+    draw_word[0+:18] |= {18{select[13]}} & draw[305+:18];  // lz
+    draw_word[0+:18] |= {18{select[12]}} & draw[323+:18];  // hx
+    draw_word[0+:18] |= {18{select[11]}} & draw[341+:18];  // hy
+    draw_word[0+:18] |= {18{select[10]}} & draw[359+:18];  // hz
+    draw_word[0+:17] |= {17{select[9]}} & draw[377+:17];  // vh
+    draw_word[0+:17] |= {17{select[8]}} & draw[394+:17];  // ambient_r
+    draw_word[0+:17] |= {17{select[7]}} & draw[411+:17];  // ambient_g
+    draw_word[0+:17] |= {17{select[6]}} & draw[428+:17];  // ambient_b
+    draw_word[0+:17] |= {17{select[5]}} & draw[445+:17];  // kd_r
+    draw_word[0+:17] |= {17{select[4]}} & draw[462+:17];  // kd_g
+    draw_word[0+:17] |= {17{select[3]}} & draw[479+:17];  // kd_b
+    draw_word[0+:17] |= {17{select[2]}} & draw[496+:17];  // ks_r
+    draw_word[0+:17] |= {17{select[1]}} & draw[513+:17];  // ks_g
+    draw_word[0+:17] |= {17{select[0]}} & draw[530+:17];  // ks_b
   endfunction
 
   // the settings after a word was written to those that are selected
@@ -1323,38 +1334,39 @@ package shade_pkg;
     if (select[35]) draw_written[5+:2] = word[8+:2];  // fixed_degree
     if (select[27]) draw_written[7+:17] = word[0+:17];  // sharpness
     if (select[27]) draw_written[24+:4] = word[24+:4];  // sharpness_exp
-    if (select[26]) draw_written[28+:31] = word[0+:31];  // t1
-    if (select[25]) draw_written[59+:31] = word[0+:31];  // t2
-    if (select[24]) draw_written[90+:31] = word[0+:31];  // t3
-    if (select[23]) draw_written[121+:18] = word[0+:18];  // threshold
-    if (select[22]) draw_written[139+:3] = word[0+:3];  // model
-    if (select[22]) draw_written[142+:1] = word[8+:1];  // cosine
-    if (select[21]) draw_written[143+:21] = word[0+:21];  // k1
-    if (select[20]) draw_written[164+:18] = word[0+:18];  // k2
-    if (select[19]) draw_written[182+:17] = word[0+:17];  // xmax
-    if (select[19]) draw_written[199+:3] = word[24+:3];  // shift
-    if (select[19]) draw_written[202+:3] = word[28+:3];  // power
-    if (select[18]) draw_written[205+:17] = word[0+:17];  // inv_n
-    if (select[18]) draw_written[222+:4] = word[24+:4];  // inv_n_exp
-    if (select[17]) draw_written[226+:17] = word[0+:17];  // gain
-    if (select[17]) draw_written[243+:6] = word[24+:6];  // gain_exp
-    if (select[16]) draw_written[249+:17] = word[0+:17];  // f0
-    if (select[15]) draw_written[266+:18] = word[0+:18];  // lx
-    if (select[14]) draw_written[284+:18] = word[0+:18];  // ly
-    if (select[13]) draw_written[302+:18] = word[0+:18];  // lz
-    if (select[12]) draw_written[320+:18] = word[0+:18];  // hx
-    if (select[11]) draw_written[338+:18] = word[0+:18];  // hy
-    if (select[10]) draw_written[356+:18] = word[0+:18];  // hz
-    if (select[9]) draw_written[374+:17] = word[0+:17];  // vh
-    if (select[8]) draw_written[391+:17] = word[0+:17];  // ambient_r
-    if (select[7]) draw_written[408+:17] = word[0+:17];  // ambient_g
-    if (select[6]) draw_written[425+:17] = word[0+:17];  // ambient_b
-    if (select[5]) draw_written[442+:17] = word[0+:17];  // kd_r
-    if (select[4]) draw_written[459+:17] = word[0+:17];  // kd_g
-    if (select[3]) draw_written[476+:17] = word[0+:17];  // kd_b
-    if (select[2]) draw_written[493+:17] = word[0+:17];  // ks_r
-    if (select[1]) draw_written[510+:17] = word[0+:17];  // ks_g
-    if (select[0]) draw_written[527+:17] = word[0+:17];  // ks_b
+    if (select[27]) draw_written[28+:3] = word[28+:3];  // weight
+    if (select[26]) draw_written[31+:31] = word[0+:31];  // t1
+    if (select[25]) draw_written[62+:31] = word[0+:31];  // t2
+    if (select[24]) draw_written[93+:31] = word[0+:31];  // t3
+    if (select[23]) draw_written[124+:18] = word[0+:18];  // threshold
+    if (select[22]) draw_written[142+:3] = word[0+:3];  // model
+    if (select[22]) draw_written[145+:1] = word[8+:1];  // cosine
+    if (select[21]) draw_written[146+:21] = word[0+:21];  // k1
+    if (select[20]) draw_written[167+:18] = word[0+:18];  // k2
+    if (select[19]) draw_written[185+:17] = word[0+:17];  // xmax
+    if (select[19]) draw_written[202+:3] = word[24+:3];  // shift
+    if (select[19]) draw_written[205+:3] = word[28+:3];  // power
+    if (select[18]) draw_written[208+:17] = word[0+:17];  // inv_n
+    if (select[18]) draw_written[225+:4] = word[24+:4];  // inv_n_exp
+    if (select[17]) draw_written[229+:17] = word[0+:17];  // gain
+    if (select[17]) draw_written[246+:6] = word[24+:6];  // gain_exp
+    if (select[16]) draw_written[252+:17] = word[0+:17];  // f0
+    if (select[15]) draw_written[269+:18] = word[0+:18];  // lx
+    if (select[14]) draw_written[287+:18] = word[0+:18];  // ly
+    if (select[13]) draw_written[305+:18] = word[0+:18];  // lz
+    if (select[12]) draw_written[323+:18] = word[0+:18];  // hx
+    if (select[11]) draw_written[341+:18] = word[0+:18];  // hy
+    if (select[10]) draw_written[359+:18] = word[0+:18];  // hz
+    if (select[9]) draw_written[377+:17] = word[0+:17];  // vh
+    if (select[8]) draw_written[394+:17] = word[0+:17];  // ambient_r
+    if (select[7]) draw_written[411+:17] = word[0+:17];  // ambient_g
+    if (select[6]) draw_written[428+:17] = word[0+:17];  // ambient_b
+    if (select[5]) draw_written[445+:17] = word[0+:17];  // kd_r
+    if (select[4]) draw_written[462+:17] = word[0+:17];  // kd_g
+    if (select[3]) draw_written[479+:17] = word[0+:17];  // kd_b
+    if (select[2]) draw_written[496+:17] = word[0+:17];  // ks_r
+    if (select[1]) draw_written[513+:17] = word[0+:17];  // ks_g
+    if (select[0]) draw_written[530+:17] = word[0+:17];  // ks_b
   endfunction
 
   // the word STATUS

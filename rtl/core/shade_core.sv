@@ -19,7 +19,7 @@
 // ERRORS and costs a clock a beat; the next span is unharmed. Without faults every span gives its pixels in order.
 // EVALUATOR: EVALUATOR_FDIFF (no multiplier at a pixel) or EVALUATOR_HORNER. FORM: FORM_REFINED or FORM_PAPER (of the
 // coefficients, the third and the versine). REFLECT = 0, DIVIDE = 0, PATH_NORMALS = 0 leave models and a path out;
-// FOLD = 2 .. 8 then shares multipliers, see shade_lane.
+// FOLD = 2 .. 8 then shares multipliers, see shade_lane. LOG2_MAX: of records, see shade_planner.
 // No combinational path from an input to an output port. One pixel a clock and lane where light keeps up: at most one
 // node a clock and lane. Latency of a first pixel: LATENCY_CORE, COLOUR = 1: LATENCY_PAINT more. Source: P1 to P4.
 // Example: after reset, normal (0, 0, 1), increment 0, 5 pixels -> five pixels of full diffuse light.
@@ -31,6 +31,7 @@ module shade_core #(
   parameter int DIVIDE       = 1,
   parameter int PATH_NORMALS = 1,
   parameter int FOLD         = 1,
+  parameter int LOG2_MAX     = shade_pkg::RECORD_LOG2,
   parameter int COLOUR       = 0,
   parameter int BURST        = 0,
   parameter int DATA_W       = COLOUR == 1 ? shade_pkg::COLOUR_DATA_W : shade_pkg::PIXEL_DATA_W
@@ -111,7 +112,7 @@ module shade_core #(
     shade_pkg::drawn_t drawn;
     shade_lane #(
       .EVALUATOR(EVALUATOR), .FORM(FORM), .REFLECT(REFLECT), .DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS),
-      .FOLD(FOLD)
+      .FOLD(FOLD), .LOG2_MAX(LOG2_MAX)
     ) u_lane (
       .clk_i, .rst_i, .phase_i(phase_q), .draw_i(own), .valid_i(enter[i]), .ready_o(ready[i]), .room_o(room[i]),
       .span_i(span), .valid_o(valid), .ready_i(taken), .drawn_o(drawn), .lit_o(lit[i]), .flags_o(flags[i])

@@ -13,7 +13,8 @@
 // Both producers give the same: a place in a record, early, and a unit normal. A further one needs the same three wires.
 // Nodes are prepared while earlier pixels are drawn. Every pipeline keeps going: what enters one has a credit for its place
 // in the FIFO behind it. No path leads from an input to an output, but, FOLD > 1, from phase_i to ready_o.
-// PATH_NORMALS = 0 leaves out shade_pixel_points; EVALUATOR, FORM, REFLECT, DIVIDE: see shade_poly_span, shade_light.
+// PATH_NORMALS = 0 leaves out shade_pixel_points; REFLECT, DIVIDE: see shade_light. EVALUATOR_FDIFF in FORM_REFINED:
+// shade_poly_line; otherwise shade_poly_span.
 // FOLD = 2 .. 8: planner, normals and light share multipliers: a span and a node in FOLD clocks; phase_i counts 0 .. FOLD - 1;
 // REFLECT, DIVIDE and PATH_NORMALS must be 0. The same pixels.
 // Latency, an empty lane: LATENCY_LANE clocks from a span of 1 pixel to its pixel (EVALUATOR_FDIFF, REFLECT = 1).
@@ -25,7 +26,8 @@ module shade_lane #(
   parameter int REFLECT      = 1,
   parameter int DIVIDE       = 1,
   parameter int PATH_NORMALS = 1,
-  parameter int FOLD         = 1
+  parameter int FOLD         = 1,
+  parameter int LOG2_MAX     = shade_pkg::RECORD_LOG2
 ) (
   input  logic                   clk_i,
   input  logic                   rst_i,
@@ -53,7 +55,7 @@ module shade_lane #(
   assign pixels  = PATH_NORMALS == 1 && draw_i.control.path == 1'(shade_pkg::PATH_NORMALS);
   assign ready_o = pixels ? pixel_ready : line_ready;
   assign room_o  = pixels ? pixel_ready : line_room;
-  shade_line #(.FOLD(FOLD)) u_line (
+  shade_line #(.FOLD(FOLD), .LOG2_MAX(LOG2_MAX)) u_line (
     .clk_i, .rst_i, .phase_i, .draw_i, .valid_i(valid_i && !pixels), .ready_o(line_ready),
     .room_o(line_room), .span_i, .credit_i(record_taken && !pixels), .place_valid_o(node), .place_o(node_place), .valid_o(lined),
     .unit_o(unit)
@@ -108,11 +110,19 @@ module shade_lane #(
     .clk_i, .rst_i, .valid_i(complete), .data_i(record), .valid_o(waiting), .ready_i(record_ready), .data_o(next),
     .taken_o(record_taken)
   );
-  shade_poly_span #(.EVALUATOR(EVALUATOR), .FORM(FORM)) u_poly (
-    .clk_i, .rst_i, .s_axis_span_tvalid(waiting), .s_axis_span_tready(record_ready), .s_axis_span_tdata(next),
-    .m_axis_pixel_tvalid(valid_o), .m_axis_pixel_tready(ready_i), .m_axis_pixel_tdata(drawn_o.pixel),
-    .m_axis_pixel_tuser(drawn_o.tag), .m_axis_pixel_tlast(drawn_o.last)
-  );
+  if (EVALUATOR == shade_pkg::EVALUATOR_FDIFF && FORM == shade_pkg::FORM_REFINED) begin : g_line
+    shade_poly_line #(.LOG2_MAX(LOG2_MAX)) u_poly (
+      .clk_i, .rst_i, .s_axis_span_tvalid(waiting), .s_axis_span_tready(record_ready), .s_axis_span_tdata(next),
+      .m_axis_pixel_tvalid(valid_o), .m_axis_pixel_tready(ready_i), .m_axis_pixel_tdata(drawn_o.pixel),
+      .m_axis_pixel_tuser(drawn_o.tag), .m_axis_pixel_tlast(drawn_o.last)
+    );
+  end else begin : g_span
+    shade_poly_span #(.EVALUATOR(EVALUATOR), .FORM(FORM)) u_poly (
+      .clk_i, .rst_i, .s_axis_span_tvalid(waiting), .s_axis_span_tready(record_ready), .s_axis_span_tdata(next),
+      .m_axis_pixel_tvalid(valid_o), .m_axis_pixel_tready(ready_i), .m_axis_pixel_tdata(drawn_o.pixel),
+      .m_axis_pixel_tuser(drawn_o.tag), .m_axis_pixel_tlast(drawn_o.last)
+    );
+  end
   shade_assert u_place (.clk_i, .rst_i, .holds_i(!lit_o || placed));
 
   logic unused_settings;  // those of shade_paint

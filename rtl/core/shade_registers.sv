@@ -12,10 +12,17 @@
 //   counts_i      by how much the counters rise in this clock; CLOCKS rises while busy_i. Counters wrap around.
 //                 What comes in the clock of clear_o counts from 0.
 //
+// DIVIDE = 0, PATH_NORMALS = 0, COLOUR = 0: settings that only the models, the path or the colours left out need are none: they
+// read 0, and writing them does nothing.
+//
 // A read is answered 5 clocks after its address was taken, a write 5 clocks after the later of its address and its data;
 // if both wait, the second 4 clocks after the first. No combinational path leads from an input to an output.
 // Example: after reset, offset 0x000 reads 0x50534844, "PSHD".
-module shade_registers (
+module shade_registers #(
+  parameter int DIVIDE       = 1,
+  parameter int PATH_NORMALS = 1,
+  parameter int COLOUR       = 1
+) (
   input  logic               clk_i,
   input  logic               rst_i,
   input  logic               s_axil_awvalid,
@@ -44,6 +51,10 @@ module shade_registers (
   input  shade_pkg::status_t events_i,
   input  shade_pkg::counts_t counts_i
 );
+  if (DIVIDE < 0 || DIVIDE > 1 || PATH_NORMALS < 0 || PATH_NORMALS > 1 || COLOUR < 0 || COLOUR > 1) begin : g_check
+    $error("shade_registers: DIVIDE, PATH_NORMALS and COLOUR must be 0 or 1");
+  end
+
   localparam logic [1:0] OKAY = 2'b00;
   localparam logic [1:0] SLVERR = 2'b10;
   localparam logic [11:0] WORD = 12'hffc;  // an address without its byte
@@ -144,15 +155,37 @@ module shade_registers (
     end
   end
 
+  // settings that are there
   logic refused;
+  shade_pkg::draw_t built, first, next;
+  always_comb begin
+    built = '1;
+    if (DIVIDE == 0) begin
+      built.material.inv_n     = '0;
+      built.material.inv_n_exp = '0;
+      built.material.f0        = '0;
+      built.light.vh           = '0;
+    end
+    if (PATH_NORMALS == 0) begin
+      built.control.path      = '0;
+      built.control.variant   = '0;
+      built.planner.threshold = '0;
+    end
+    if (COLOUR == 0) begin
+      built.control.colour = '0;
+      built.colour         = '0;
+    end
+  end
+  assign first = shade_pkg::DRAW_RESET & built;
+  assign next  = shade_pkg::draw_written(draw_o, select_q, word_q) & built;
   assign refused = !mapped_q || (setting_q && busy_i && !clears_q);
   always_ff @(posedge clk_i) begin
     if (read) {s_axil_rdata, s_axil_rresp} <= {word_q, mapped_q ? OKAY : SLVERR};
     if (write) s_axil_bresp <= refused ? SLVERR : OKAY;
-    if (write && !refused) draw_o <= shade_pkg::draw_written(draw_o, select_q, word_q);
+    if (write && !refused) draw_o <= next;
     clear_o <= write && !refused && select_q.control && word_q[CLEAR];
     if (rst_i) begin
-      draw_o  <= shade_pkg::DRAW_RESET;
+      draw_o  <= first;
       clear_o <= 1'b0;
     end
   end

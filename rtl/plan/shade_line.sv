@@ -14,10 +14,11 @@
 //
 // FOLD = 2 .. 8: a span and a node in FOLD clocks, with fewer multipliers in planner and unit; phase_i counts 0 .. FOLD - 1,
 // and spans are taken in phase 0. No path leads from an input to an output, but from phase_i to ready_o.
-// Latency from a span to its first normal: LATENCY_LINE = 55 clocks, FOLD = 6: LATENCY_LINE_FOLDED = 70. One span, one node a
+// Latency from a span to its first normal: LATENCY_LINE = 56 clocks, FOLD = 6: LATENCY_LINE_FOLDED = 76. One span, one node a
 // clock. Source: P1, P4. Example: 5 pixels, degree 3: the normals of pixels 0, 1, 2, 4 in slots 0 to 3 of one record.
 module shade_line #(
-  parameter int FOLD = 1
+  parameter int FOLD     = 1,
+  parameter int LOG2_MAX = shade_pkg::RECORD_LOG2
 ) (
   input  logic              clk_i,
   input  logic              rst_i,
@@ -56,9 +57,10 @@ module shade_line #(
   );
 
   localparam int LATENCY = shade_pkg::LATENCY_PLANNER + (FOLD < 3 ? 0 : FOLD);
-  shade_planner #(.FOLD(FOLD)) u_planner (
-    .clk_i, .rst_i, .phase_i, .increment_i(span_i.increment), .count_i(span_i.count), .flat_i(job.flat),
-    .planner_i(draw_i.planner), .fixed_degree_i(draw_i.control.fixed_degree), .plan_o(plan)
+  shade_planner #(.FOLD(FOLD), .LOG2_MAX(LOG2_MAX)) u_planner (
+    .clk_i, .rst_i, .phase_i, .normal_i(span_i.normal), .increment_i(span_i.increment),
+    .count_i(span_i.count), .flat_i(job.flat),
+    .planner_i(draw_i.planner), .h_i(draw_i.light.h), .fixed_degree_i(draw_i.control.fixed_degree), .plan_o(plan)
   );
   shade_valid #(.DEPTH(LATENCY)) u_planned (.clk_i, .rst_i, .valid_i(take), .valid_o(planned));
   shade_fifo #(.WIDTH($bits(plan)), .LOG2(LOG2), .BLOCK(1)) u_plans (
@@ -69,7 +71,7 @@ module shade_line #(
 
   // ---- nodes -----------------------------------------------------------------------------------------------------
   shade_pkg::node_t node;
-  shade_node_walk #(.FOLD(FOLD)) u_walk (
+  shade_node_walk #(.FOLD(FOLD), .LOG2_MAX(LOG2_MAX)) u_walk (
     .clk_i, .rst_i, .phase_i, .valid_i(plan_valid), .ready_o(plan_taken), .plan_i(plan_next), .job_i(job_next),
     .job_taken_o(job_taken), .credit_i, .valid_o(place_valid_o), .node_o(node)
   );

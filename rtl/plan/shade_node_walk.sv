@@ -18,7 +18,8 @@
 // Source: P4 (one increment for all lines of a triangle), P1, section IV (nodes).
 module shade_node_walk #(
   parameter int CREDIT_LOG2 = shade_pkg::RECORD_FIFO_LOG2,
-  parameter int FOLD        = 1
+  parameter int FOLD        = 1,
+  parameter int LOG2_MAX    = shade_pkg::RECORD_LOG2
 ) (
   input  logic             clk_i,
   input  logic             rst_i,
@@ -44,7 +45,7 @@ module shade_node_walk #(
 
   logic next_valid, load;
   shade_pkg::stretch_t next;
-  shade_stretch u_stretch (
+  shade_stretch #(.LOG2_MAX(LOG2_MAX)) u_stretch (
     .clk_i, .rst_i, .valid_i, .ready_o, .plan_i, .job_i, .job_taken_o, .valid_o(next_valid), .ready_i(load),
     .stretch_o(next)
   );

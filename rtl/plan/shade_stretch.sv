@@ -11,10 +11,12 @@
 //   stretch_o          shared: it starts at the last node of the stretch before
 //   valid_i, ready_o   a plan is taken when both are 1, for its last stretch; valid_o, ready_i likewise
 //
-// Latency 2 clocks, one stretch a clock. Exact; steps wrap at 32 bits.
+// log2 of records: at most LOG2_MAX. Latency 2 clocks, one stretch a clock. Exact; steps wrap at 32 bits.
 // Example: main = 2, log2 = 4, degree 3; last_count = 9, last_log2 = 3, last_degree 1 -> 2 records of 16 pixels, step 4 g;
 // 1 record of 9 pixels, step 8 g, shared. Source: P1, section IV (nodes).
-module shade_stretch (
+module shade_stretch #(
+  parameter int LOG2_MAX = shade_pkg::RECORD_LOG2
+) (
   input  logic                clk_i,
   input  logic                rst_i,
   input  logic                valid_i,
@@ -26,13 +28,19 @@ module shade_stretch (
   input  logic                ready_i,
   output shade_pkg::stretch_t stretch_o
 );
+  if (LOG2_MAX < 4 || LOG2_MAX > shade_pkg::LOG2_MAX) begin : g_check
+    $error("shade_stretch: LOG2_MAX must be in 4 .. 12");
+  end
+
   localparam int COUNT_W = shade_pkg::COUNT_W;
   localparam int LOG2_W = shade_pkg::LOG2_W;
   localparam logic [COUNT_W-1:0] ONE = COUNT_W'(1);
 
   // ---- which one it is, and how far its nodes are apart; wide as it is, the span waits in its FIFO ---------------------
   logic main, main_done_q, move, take, chosen_valid_q;
-  logic [LOG2_W-1:0] step_log2, step_log2_q;
+  localparam int STEP_W = $clog2(LOG2_MAX + 1);
+  logic [LOG2_W-1:0] step_log2;
+  logic [STEP_W-1:0] step_log2_q;
   shade_pkg::stretch_t chosen, chosen_q;
   assign main = plan_i.split && !main_done_q;
   assign chosen.normal  = '0;
@@ -63,7 +71,7 @@ module shade_stretch (
   always_ff @(posedge clk_i) begin
     if (take) begin
       chosen_q    <= chosen;
-      step_log2_q <= step_log2;
+      step_log2_q <= STEP_W'(step_log2);
       main_done_q <= main;
     end
     if (move) begin
@@ -82,5 +90,6 @@ module shade_stretch (
     else if (ready_i) valid_o <= 1'b0;
     if (rst_i) {main_done_q, chosen_valid_q, valid_o} <= 3'b000;
   end
+  shade_assert u_log2 (.clk_i, .rst_i, .holds_i(!take || step_log2 <= LOG2_W'(LOG2_MAX)));
   shade_stable #(.WIDTH($bits(stretch_o))) u_stable (.clk_i, .rst_i, .valid_i(valid_o), .ready_i, .data_i(stretch_o));
 endmodule

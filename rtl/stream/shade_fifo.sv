@@ -26,6 +26,7 @@ module shade_fifo #(
   end
 
   localparam int DEPTH = 1 << LOG2;
+  (* ram_style = BLOCK == 1 ? "block" : "auto" *)
   logic [WIDTH-1:0] memory[0:DEPTH-1];
   // equal means empty: of 2^LOG2 words one stands in a register, so that the memory is never full
   logic [LOG2-1:0] write_q, read_q;

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import plan
 from polyshade.golden.types import CRITERION
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, in_forms, mixed, signed_range, thresholds
-from polyshade.sim.units.normal import DEGREES, cosine, true_invc
+from polyshade.sim.units.normal import DEGREES, cosine, true_invc, unit_vectors
 
 EDGES = ("cosines_i.ab", "cosines_i.bc", "cosines_i.ca")
 
@@ -95,7 +96,7 @@ def _kappa(form: str) -> Iterator[Case]:
         return
     names = ("g_i.x", "g_i.y", "g_i.z")
 
-    unused = {f"planner_i.{name}": 0 for name in ("t1", "t2", "t3", "threshold")}
+    unused = {f"planner_i.{name}": 0 for name in ("t1", "t2", "t3", "threshold", "weight")}
 
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
         others = {name: np.full(rows, value) for name, value in unused.items()}
@@ -129,6 +130,35 @@ def _kappa(form: str) -> Iterator[Case]:
     )  # fmt: skip
 
 
+def _weight(form: str) -> Iterator[Case]:
+    """How far a highlight is; normals of about unit length, and any."""
+    if form != "refined":
+        return
+
+    def golden(i: Arrays) -> Arrays:
+        n, h = (np.stack([i[f"{name}.{axis}"] for axis in "xyz"], -1) for name in ("normal_i", "h_i"))
+        limits = i["planner_i.sharpness_exp"], i["kappa_i"], i["planner_i.weight"]
+        return {"weight_o": plan.weight(n, h, *limits)}
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        unit = {
+            f"normal_i.{axis}": v << k.STEP_F - k.INTENSITY_F
+            for axis, v in zip("xyz", unit_vectors(rng, rows), strict=True)
+        }
+        free = mixed({name: signed_range(k.STEP_W) for name in unit})(rng, rows)
+        n = {name: np.where(rng.random(rows) < 0.8, v, free[name]) for name, v in unit.items()}
+        h = {f"h_i.{axis}": np.full(rows, v[0]) for axis, v in zip("xyz", unit_vectors(rng, 1), strict=True)}
+        kappa = rng.integers(0, 1 << k.KAPPA_W, rows) >> rng.integers(0, k.KAPPA_W, rows)
+        unused = {f"planner_i.{name}": np.zeros(rows, np.int64) for name in ("t1", "t2", "t3", "threshold")}
+        static = unused | {"planner_i.weight": np.full(rows, rng.integers(1 << k.WEIGHT_W))}
+        return n | h | {"kappa_i": kappa} | sharpness(rng, rows) | static
+
+    yield Case(
+        "shade_weight", form, {}, golden, golden, golden, vectors, None, k.LATENCY_KAPPA + 1, bound=0, unit_f=0,
+        chunk=1 << 13, late={"kappa_i": k.LATENCY_KAPPA},
+    )  # fmt: skip
+
+
 def _planner(form: str) -> Iterator[Case]:
     """Plans of spans of all lengths and of counts that are none, adaptive, flat and of a fixed degree."""
     if form != "refined":
@@ -139,34 +169,48 @@ def _planner(form: str) -> Iterator[Case]:
             plan.THRESHOLDS if rng.integers(2) else np.sort(rng.integers(0, 1 << rng.integers(1, k.KAPPA_W + 1, 3)))
         )
         static = dict(zip((f"planner_i.{name}" for name in ("t1", "t2", "t3")), limits, strict=True)) | {
-            "fixed_degree_i": rng.integers(1, 4) if rng.integers(4) == 0 else 0, "planner_i.threshold": 0
+            "fixed_degree_i": rng.integers(1, 4) if rng.integers(4) == 0 else 0, "planner_i.threshold": 0,
+            "planner_i.weight": rng.integers(1 << k.WEIGHT_W),
         }  # fmt: skip
+        static |= {f"h_i.{axis}": v for axis, v in zip("xyz", rng.integers(-ONE, ONE + 1, 3), strict=True)}
+        low, high = signed_range(k.STEP_W)
+        near_one = 1 << k.STEP_F >> rng.integers(0, 3, rows)
+        normal = {
+            f"normal_i.{axis}": np.where(
+                rng.random(rows) < 0.5, rng.integers(low, high, rows), rng.integers(-near_one, near_one + 1)
+            )
+            for axis in "xyz"
+        }
         near = (1 << rng.integers(0, k.COUNT_W, rows)) + rng.integers(-2, 3, rows)
         count = np.choose(rng.integers(0, 3, rows), [near, rng.integers(0, 20, rows), rng.integers(0, 8192, rows)])
         return (
-            increments("increment_i", rng, rows)
+            normal
+            | increments("increment_i", rng, rows)
             | {"count_i": count.clip(0, (1 << k.COUNT_W) - 1), "flat_i": (rng.random(rows) < 0.1).astype(np.int64)}
             | sharpness(rng, rows)
             | {name: np.full(rows, value) for name, value in static.items()}
         )
 
-    def golden(i: Arrays) -> Arrays:
+    def golden(i: Arrays, log2_max: int = k.RECORD_LOG2) -> Arrays:
+        n, h = (np.stack([i[f"{name}.{axis}"] for axis in "xyz"], -1) for name in ("normal_i", "h_i"))
+        far = lambda arc: plan.weight(n, h, i["planner_i.sharpness_exp"], arc, i["planner_i.weight"])  # noqa: E731
         planned = plan.planner(
             *(i[f"increment_i.{axis}"] for axis in "xyz"), i["count_i"], i["planner_i.sharpness"],
             i["planner_i.sharpness_exp"], tuple(i[f"planner_i.{name}"] for name in ("t1", "t2", "t3")),
-            int(i["fixed_degree_i"][0]), i["flat_i"],
+            int(i["fixed_degree_i"][0]), i["flat_i"], log2_max, far,
         )  # fmt: skip
         split = (planned.main != 0).astype(np.int64)
         return {f"plan_o.{name}": value for name, value in (planned._asdict() | {"split": split}).items()}
 
-    for fold in (1, 6, 2, 3, 4, 5, 7, 8):
+    for fold, more in ((1, {}), (6, {}), (1, {"LOG2_MAX": k.LOG2_MAX}), *((fold, {}) for fold in (2, 3, 4, 5, 7, 8))):
         latency, pace = (k.LATENCY_PLANNER + fold, fold) if fold > 2 else (k.LATENCY_PLANNER, 1)
+        made = partial(golden, log2_max=more.get("LOG2_MAX", k.RECORD_LOG2))
         yield Case(
-            "shade_planner", form, {"FOLD": fold}, golden, golden, golden, vectors, None, latency, pace, bound=0,
+            "shade_planner", form, {"FOLD": fold} | more, made, made, made, vectors, None, latency, pace, bound=0,
             unit_f=0, chunk=1 << 13,
         )  # fmt: skip
 
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/plan``."""
-    return in_forms(_criterion, _kappa, _planner)
+    return in_forms(_criterion, _kappa, _weight, _planner)

@@ -201,6 +201,52 @@ def near_tie(rng: np.random.Generator, log2: np.ndarray, count: np.ndarray) -> A
     return {name: np.array(digits, np.int64) for name, digits in found.items()}
 
 
+def _poly_start(form: str) -> Iterator[Case]:
+    """First differences of every degree, at every length that a planner gives it."""
+    if form != "refined":
+        return
+    nodes = {f"nodes_i.n{n}": signed_range(k.INTENSITY_W) for n in range(4)}
+    for log2_max in (k.RECORD_LOG2, k.LOG2_MAX):
+
+        def vectors(rng: np.random.Generator, rows: int, log2_max: int = log2_max) -> Arrays:
+            degree = rng.integers(1, 4, rows)
+            log2 = rng.integers(np.minimum(degree, 2), log2_max + 1)
+            return mixed(nodes, ONE, -ONE)(rng, rows) | {"degree_i": degree, "log2_i": log2}
+
+        def golden(i: Arrays, log2_max: int = log2_max) -> Arrays:
+            d = poly.poly_start(i["degree_i"], *(i[name] for name in nodes), i["log2_i"], log2_max)
+            return {f"d{n + 1}_o": value for n, value in enumerate(d)}
+
+        yield Case(
+            "shade_poly_start", form, {"LOG2_MAX": log2_max}, golden, golden, golden, vectors, None,
+            k.LATENCY_POLY_START, bound=0, unit_f=0,
+        )  # fmt: skip
+
+
+def _poly_state(form: str) -> Iterator[Case]:
+    """Steps from any differences; behind a first pixel inputs are random."""
+    if form != "refined":
+        return
+    width = k.INTENSITY_W + 2 + 3 * k.RECORD_LOG2
+    names = ("node_i", "d1_i", "d2_i", "d3_i")
+    ranges = {"node_i": signed_range(k.INTENSITY_W)} | {name: signed_range(width) for name in names[1:]}
+
+    def vectors(rng: np.random.Generator, rows: int) -> Arrays:
+        first = (rng.random(rows) < 0.2).astype(np.int64)
+        first[0] = 1
+        gentle = {name: value >> rng.integers(0, 18, rows) for name, value in mixed(ranges)(rng, rows).items()}
+        return gentle | {"begin_i": first}
+
+    def golden(i: Arrays) -> Arrays:
+        j = pixel_index(i["begin_i"])
+        return {"pixel_o": poly.poly_state(*(i[name][np.arange(len(j)) - j] for name in names), j)}
+
+    yield Case(
+        "shade_poly_state", form, {}, golden, golden, golden, vectors, None, k.LATENCY_POLY_STATE, bound=0, unit_f=0,
+        ordered=True,
+    )  # fmt: skip
+
+
 def spread(segments: Arrays, count: np.ndarray) -> Arrays:
     """Segments to pixels: every row ``count`` times, with ``first_i`` at the first."""
     rows = {name: np.repeat(value, count) for name, value in segments.items()}
@@ -217,4 +263,4 @@ def pixel_index(first: np.ndarray) -> np.ndarray:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/poly`` but whole spans, a stream."""
-    return in_forms(_coef, _horner_step, _horner, _fdiff)
+    return in_forms(_coef, _horner_step, _horner, _fdiff, _poly_start, _poly_state)

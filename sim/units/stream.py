@@ -8,7 +8,7 @@ and cocotb (``tb.stream_bench``) with pauses, resets, a taker that stands still,
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -236,6 +236,23 @@ def poly_span(evaluator: int, form: str, **more: int) -> Stream:
         lambda rng, count, kind: {"s_axis_span_tdata": _noise(rng, records(rng, count, kind))}, golden,
         k.LATENCY_POLY_SPAN_HORNER if horner else k.LATENCY_POLY_SPAN_FDIFF, longest=longest, errors=errors,
         held=lambda _, n: (1 << k.FIFO_LOG2) // n + 1,
+    )  # fmt: skip
+
+
+def poly_line(**parameters: int) -> Stream:
+    """As ``shade_poly_span``; a record is taken with its last pixel."""
+
+    def items(rng: Rng, count: np.ndarray, kind: Hashable) -> Arrays:
+        record = records(rng, count, kind)
+        short = np.select([count < 3, count == 3], [k.DEGREE_DIRECT, rng.integers(0, 2, len(count))], 3)
+        record["head.degree"] = np.minimum(record["head.degree"], short)
+        return {"s_axis_span_tdata": _noise(rng, record)}
+
+    return replace(
+        poly_span(k.EVALUATOR_FDIFF, "refined"), module="shade_poly_line", parameters=parameters, items=items,
+        latency=lambda _, given: k.LATENCY_POLY_LINE + 1 - np.bincount(given.owner),
+        longest=(1 << parameters.get("LOG2_MAX", k.RECORD_LOG2)) + 1, through=("s_axis_span_tdata",),
+        held=lambda _, n: (1 << k.FIFO_LOG2) // n,
     )  # fmt: skip
 
 
@@ -470,6 +487,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
     """Kinds: path, model, degree (0: adaptive, None: any). With two multipliers fewer paths and models are left."""
     fold, by_normals = more.get("FOLD", 1), more.get("PATH_NORMALS", 1) == 1
     horner = more.get("EVALUATOR", k.EVALUATOR_FDIFF) == k.EVALUATOR_HORNER
+    spanwise = horner or form == "paper"  # by shade_poly_span
     built = {name.lower(): value for name, value in more.items() if name != "FOLD"}
 
     def items(rng: Rng, count: np.ndarray, kind: tuple) -> Arrays:
@@ -498,7 +516,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
     def latency(i: Arrays, _given: Given) -> ArrayLike:
         path = draw_of(i)["path"]
         clocks = k.lane_latency(fold) if fold > 1 else k.LATENCY_LANE_NORMALS if normals(path) else k.LATENCY_LANE
-        clocks += (k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_SPAN_FDIFF) * horner
+        clocks += (k.LATENCY_POLY_SPAN_HORNER - k.LATENCY_POLY_LINE) * horner
         clocks -= (not more.get("REFLECT", 1) and fold == 1) * k.LATENCY_REFLECT
         return clocks if normals(path) else clocks + fold * (nodes(i) - 1)
 
@@ -509,8 +527,8 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         """Pixels and records begun, with a credit; before them normals, or spans in the walk and in front of it."""
         pixels, kept = 1 << k.FIFO_LOG2, 1 << k.RECORD_FIFO_LOG2
         if normals(kind[0]):
-            return (pixels + 1 + kept + (1 << k.NORMAL_FIFO_LOG2)) // n + 1
-        return pixels // n + 1 + kept + 2 + (1 << k.SPAN_FIFO_LOG2)
+            return (pixels + spanwise + kept + (1 << k.NORMAL_FIFO_LOG2)) // n + 1
+        return pixels // n + spanwise + kept + 2 + (1 << k.SPAN_FIFO_LOG2)
 
     return Stream(
         "shade_lane", more if form == "refined" else {"FORM": FORMS[form]} | more, items, golden, latency,
@@ -554,6 +572,7 @@ def streams() -> Iterator[Stream]:
     yield from (poly_span(k.EVALUATOR_HORNER, "paper"), poly_span(k.EVALUATOR_FDIFF, "refined"))
     yield poly_span(k.EVALUATOR_HORNER, "paper", NODES=k.NODES_RIGHT)
     yield poly_span(k.EVALUATOR_FDIFF, "paper", NODES=k.NODES_RIGHT, LOG2_MAX=6)
+    yield from (poly_line(), poly_line(LOG2_MAX=12))
     yield from (_span_walk(), _span_walk(LOG2_MAX=6, CREDIT_LOG2=2), _walk(), _walk(COUNT_W=4, CREDIT_LOG2=1))
     yield from (pixel_normals(), _pixel_points(), _stretch())
     yield from (_node_walk(), _node_walk(CREDIT_LOG2=1), _node_walk(FOLD=6), _line(), _line(FOLD=6))
@@ -571,6 +590,7 @@ def measured() -> dict[str, Stream]:
     for form in FORMS:
         for evaluator, point in ((k.EVALUATOR_HORNER, ""), (k.EVALUATOR_FDIFF, f"[EVALUATOR={k.EVALUATOR_FDIFF}]")):
             found[f"shade_poly_span{point}/{form}"] = poly_span(evaluator, form)
+    found["shade_poly_line/refined"] = poly_line()
     papers = range(k.VARIANT_V1, k.VARIANT_V6 + 1)
     found["shade_pixel_normals/refined"] = pixel_normals([k.VARIANT_REFINED])
     return found | {"shade_pixel_normals/paper": pixel_normals(papers)}

@@ -12,7 +12,7 @@ from polyshade.golden.core import RegisterFile
 from polyshade.golden.types import COUNTS, DRAW, whole
 
 from tb.bench import PRESSURE, Bench, Mismatch, Sink, Source, checked, no_path
-from tb.runner import simulate
+from tb.runner import points, simulate
 
 ALL = list(registers.every())
 OFFSETS = {register.name: register.offset for register in ALL}
@@ -21,8 +21,14 @@ COUNTERS = {"pixels": 3, "spans": 3, "stalls": 3, "evaluations": 3, "errors": 3}
 LATENCY = 5  # from an address, or the data if later, to the response
 
 
-def test_cocotb():
-    simulate("shade_registers", {}, public=("*_q",))
+@points({}, {"DIVIDE": 0, "PATH_NORMALS": 0, "COLOUR": 0})
+def test_cocotb(point):
+    simulate("shade_registers", point, public=("*_q",))
+
+
+def built(bench: Bench) -> RegisterFile:
+    """The registers that are there."""
+    return RegisterFile(**{name.lower(): bench.parameter(name) for name in ("DIVIDE", "PATH_NORMALS", "COLOUR")})
 
 
 def quiet(bench: Bench, busy: int = 0) -> None:
@@ -122,7 +128,7 @@ async def every_field(bench: Bench, pause: float) -> None:
     """Reset values; then all ones, all zeros and random words, byte by byte too, into every register."""
     quiet(bench)
     master = AxiLiteMaster(AxiLiteBus.from_prefix(bench.dut, "s_axil"), bench.dut.clk_i)
-    write, read, file = master.write_if, master.read_if, RegisterFile()
+    write, read, file = master.write_if, master.read_if, built(bench)
     if pause:
         for channel in (write.aw_channel, write.w_channel, write.b_channel, read.ar_channel, read.r_channel):
             channel.set_pause_generator(random.random() < pause for _ in itertools.count())
@@ -152,7 +158,7 @@ async def every_field(bench: Bench, pause: float) -> None:
 async def no_register(bench: Bench, pause: float) -> None:
     """Offsets without a register, all of them: an error, 0, and nothing changes."""
     quiet(bench)
-    bus, file = Bus(bench, pause, pause), RegisterFile()
+    bus, file = Bus(bench, pause, pause), built(bench)
     await bench.reset()
     empty = [offset for offset in range(0, 4096, 4) if offset not in OFFSETS.values()]
     for word, okay in await bus.read(random.sample(empty, 200) if pause else empty):
@@ -168,7 +174,7 @@ async def no_register(bench: Bench, pause: float) -> None:
 @checked(**PRESSURE)
 async def random_writes(bench: Bench, gap: float, stall: float) -> None:
     """Any strobes, addresses and data in any order, while other registers are read; busy or not."""
-    bus, file = Bus(bench, gap, stall), RegisterFile()
+    bus, file = Bus(bench, gap, stall), built(bench)
     quiet(bench)
     await bench.reset()
     cocotb.start_soon(told(bench))
@@ -251,7 +257,7 @@ class Core:
 @checked(wrap=[0, 1])
 async def counters(bench: Bench, wrap: int) -> None:
     """Several a clock, up to the last clock, over the end of 32 bits; CONTROL.clear in the middle loses nothing."""
-    bus, file = Bus(bench), RegisterFile()
+    bus, file = Bus(bench), built(bench)
     quiet(bench)
     await bench.reset()
     core = Core(bench, file)
@@ -276,7 +282,7 @@ async def counters(bench: Bench, wrap: int) -> None:
 @checked()
 async def every_fault(bench: Bench) -> None:
     """A pulse of one clock sets its bit, and that bit alone, until it is cleared."""
-    bus, file = Bus(bench), RegisterFile()
+    bus, file = Bus(bench), built(bench)
     quiet(bench)
     await bench.reset()
     for bit, fault in enumerate(registers.faults()):
@@ -299,10 +305,10 @@ async def every_fault(bench: Bench) -> None:
 @checked()
 async def busy(bench: Bench) -> None:
     """A draw call cannot be torn: settings stay as they are; CONTROL.clear works if nothing else is asked for."""
-    bus, file = Bus(bench), RegisterFile()
+    bus, file = Bus(bench), built(bench)
     quiet(bench)
     await bench.reset()
-    control = registers.pack({"path": 1, "variant": 5})[OFFSETS["CONTROL"]]
+    control = registers.pack({"fixed_degree": 2})[OFFSETS["CONTROL"]]
     await bus.write([(OFFSETS["CONTROL"], control, 0xF)])
     file.write(OFFSETS["CONTROL"], control)
     quiet(bench, busy=1)
@@ -354,7 +360,7 @@ async def resets(bench: Bench) -> None:
             sink.forget()
         await bench.tick(10)
         bench.equal(len(bus.b.words) + len(bus.r.words), 0, "answers after a reset")
-        await compare(bench, bus, RegisterFile())
+        await compare(bench, bus, built(bench))
 
 
 @checked()

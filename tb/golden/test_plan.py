@@ -23,10 +23,12 @@ def span_log2(count: int) -> int:
     return max(count - 2, 0).bit_length()
 
 
-def plainly(count: int, kappa: int, thresholds: tuple[int, int, int] = plan.THRESHOLDS) -> list[tuple[int, ...]]:
+def plainly(
+    count: int, kappa: int, thresholds: tuple[int, int, int] = plan.THRESHOLDS, log2_max: int = k.LOG2_MAX
+) -> list[tuple[int, ...]]:
     """Records (start, count, degree, log2) of a span, in the words of the module's docstring."""
     t1, t2, t3 = thresholds
-    whole = span_log2(count)
+    whole = min(span_log2(count), log2_max)
 
     def of(log2: int) -> int:
         return kappa >> 2 * max(whole - log2, 0)
@@ -209,33 +211,38 @@ def expanded(planned: plan.Plan) -> list[tuple[int, ...]]:
     return made
 
 
-def test_planner() -> None:
+@pytest.mark.parametrize("log2_max", [k.RECORD_LOG2, k.LOG2_MAX])
+def test_planner(log2_max: int) -> None:
     """From increments: the plan by their kappa; flat ones as if it were 0."""
     rows = 2000
     g = RNG.integers(-1 << 31, 1 << 31, (3, rows)) >> RNG.integers(4, 32, rows)
     count, flat = RNG.integers(1, 4097, rows), RNG.integers(0, 4, rows) == 0
     mantissa, exponent = plan.quantize_sharpness(48)
-    kappa = np.where(flat, 0, plan.kappa(*g, poly.span_log2(count), mantissa, exponent))
-    planned = plan.planner(*g, count, mantissa, exponent, flat=flat)
-    assert expanded(planned) == rows_of(count, kappa)
-    assert (planned.main[flat] == 0).all()
+    kappa = np.where(flat, 0, plan.kappa(*g, np.minimum(poly.span_log2(count), log2_max), mantissa, exponent))
+    planned = plan.planner(*g, count, mantissa, exponent, flat=flat, log2_max=log2_max)
+    assert expanded(planned) == rows_of(count, kappa, log2_max)
+    assert (planned.main[flat & (count <= (1 << log2_max) + 1)] == 0).all()
     assert set(planned.last_degree[flat].tolist()) <= {0, 1}
 
 
-def rows_of(count: np.ndarray, kappa: np.ndarray) -> list[tuple[int, ...]]:
+def rows_of(count: np.ndarray, kappa: np.ndarray, log2_max: int) -> list[tuple[int, ...]]:
     """The records of spans, span by span, in the words of the module's docstring."""
     spans = enumerate(zip(count.tolist(), kappa.tolist(), strict=True))
-    return [(span, *record) for span, pair in spans for record in plainly(*pair)]
+    return [(span, *record) for span, pair in spans for record in plainly(*pair, log2_max=log2_max)]
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])
 def test_planner_of_the_paper(degree: int) -> None:
     """One record a span of the fixed degree, but for flat spans."""
     count = np.array([1, 3, 4, 5, 6, 4096])
-    planned = plan.planner(1 << 28, 0, 0, count, 1 << k.SHARPNESS_F, 10, fixed_degree=degree)
+    planned = plan.planner(1 << 28, 0, 0, count, 1 << k.SHARPNESS_F, 10, fixed_degree=degree, log2_max=12)
     assert expanded(planned) == rows(plan.plan_fixed(count, degree))
-    flat = plan.planner(1 << 28, 0, 0, count, 1 << k.SHARPNESS_F, 10, fixed_degree=degree, flat=1)
+    flat = plan.planner(1 << 28, 0, 0, count, 1 << k.SHARPNESS_F, 10, fixed_degree=degree, flat=1, log2_max=12)
     assert flat.last_degree.tolist() == [0, 1, 1, 1, 1, 1]
+    short = plan.planner(0, 0, 0, [33, 34, 4096], 1 << k.SHARPNESS_F, 10, fixed_degree=degree)
+    assert [part.tolist() for part in short] == [
+        [0, 1, 127], [5, 5, 5], [degree] * 3, [33, 2, 32], [5, 0, 5], [degree, 0, degree]
+    ]  # fmt: skip
 
 
 def test_any_count_has_a_plan() -> None:

@@ -34,7 +34,7 @@ def netlist(module: str, point: Point, folder: Path) -> int:
     ("module", "point", "counted"),
     [
         ("shade_kappa", {}, k.PRODUCTS_KAPPA),
-        ("shade_planner", {}, k.PRODUCTS_KAPPA),
+        ("shade_planner", {}, k.PRODUCTS_KAPPA + k.PRODUCTS_WEIGHT),
         ("shade_node_walk", {}, 0),
         ("shade_unit", {}, k.PRODUCTS_UNIT),
         ("shade_normalize", {}, k.PRODUCTS_NORMALIZE),
@@ -70,7 +70,7 @@ def test_products_of_spans() -> None:
     drawn = Drawn([[0, 0]] * 10, [0] * 10, [0] * 3, 2)
     at_nodes = 3 * (k.PRODUCTS_UNIT + k.PRODUCTS_LIGHT)
     for g, increments in (([[1, 2, 3]] * 4, 1), ([[1, 2, 3], [1, 2, 4], [1, 2, 4], [1, 2, 3]], 3)):
-        expected = increments * k.PRODUCTS_KAPPA + at_nodes
+        expected = increments * k.PRODUCTS_KAPPA + 4 * k.PRODUCTS_WEIGHT + at_nodes
         assert products(g, drawn, reflect=0, divide=0) == expected
         horner = products(g, drawn, evaluator=k.EVALUATOR_HORNER, reflect=0, divide=0)
         assert horner == expected + 10 * k.CHANNELS * k.PRODUCTS_HORNER

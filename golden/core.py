@@ -242,7 +242,9 @@ class RegisterFile:
         chosen = sum(0xFF << 8 * i for i in range(4) if strobe >> i & 1)
         word = word & chosen | before & ~chosen
         clears = register.name == "CONTROL" and word >> 31 == 1
-        if busy and not (clears and word ^ before == 1 << 31):
+        absent = (f for f in register.fields if f not in self.kept[register.name] and f.name != "clear")
+        absent = sum((1 << field.width) - 1 << field.lsb for field in absent)
+        if busy and not (clears and (word ^ before) & ~absent == 1 << 31):
             return False
         if clears:
             self.clear()

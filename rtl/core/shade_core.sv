@@ -146,7 +146,7 @@ module shade_core #(
   end
   assign idle_o = !busy_q;
 
-  shade_registers u_registers (
+  shade_registers #(.DIVIDE(DIVIDE), .PATH_NORMALS(PATH_NORMALS), .COLOUR(COLOUR)) u_registers (
     .clk_i, .rst_i, .s_axil_awvalid, .s_axil_awready, .s_axil_awaddr, .s_axil_awprot, .s_axil_wvalid, .s_axil_wready,
     .s_axil_wdata, .s_axil_wstrb, .s_axil_bvalid, .s_axil_bready, .s_axil_bresp, .s_axil_arvalid, .s_axil_arready,
     .s_axil_araddr, .s_axil_arprot, .s_axil_rvalid, .s_axil_rready, .s_axil_rdata, .s_axil_rresp,

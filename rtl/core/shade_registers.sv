@@ -123,7 +123,7 @@ module shade_registers #(
   assign read     = end_q && !write_q;
   assign change_o = write;
 
-  logic [31:0] draw_q, own_q, word_q;
+  logic [31:0] draw_q, own_q, word_q, absent;  // absent: bits of CONTROL
   logic [3:0][7:0] data, word, merged;
   logic mapped_q, setting_q, clears_q;
   assign data = data_q;
@@ -151,7 +151,7 @@ module shade_registers #(
     end
     if (merge_q) begin
       word_q   <= merged;
-      clears_q <= select_q.control && (merged ^ word) == 32'd1 << CLEAR;
+      clears_q <= select_q.control && ((merged ^ word) & ~absent) == 32'd1 << CLEAR;
     end
   end
 
@@ -176,8 +176,14 @@ module shade_registers #(
       built.colour         = '0;
     end
   end
-  assign first = shade_pkg::DRAW_RESET & built;
-  assign next  = shade_pkg::draw_written(draw_o, select_q, word_q) & built;
+  shade_pkg::select_t control;
+  always_comb begin
+    control         = '0;
+    control.control = 1'b1;
+  end
+  assign absent = shade_pkg::draw_word(~built, control);
+  assign first  = shade_pkg::DRAW_RESET & built;
+  assign next   = shade_pkg::draw_written(draw_o, select_q, word_q) & built;
   assign refused = !mapped_q || (setting_q && busy_i && !clears_q);
   always_ff @(posedge clk_i) begin
     if (read) {s_axil_rdata, s_axil_rresp} <= {word_q, mapped_q ? OKAY : SLVERR};

@@ -20,7 +20,7 @@ from cocotbext.axi import (
 from polyshade.golden import contract as k
 from polyshade.golden.core import Told
 from polyshade.golden.core import core as golden_core
-from polyshade.golden.registers import ID, after_reset, every, pack, unpack
+from polyshade.golden.registers import ID, after_reset, built, every, pack, unpack
 from polyshade.sim.units.spans import CODES, Spans, settings, spans
 
 from tb.bench import PRESSURE, Bench, Mismatch, checked, no_path
@@ -245,13 +245,22 @@ async def traffic(bench: Bench, gap: float, stall: float) -> None:
         await bench.until(lambda: core.watch.inside > 0, 200, "a span taken")
         await meddle(core, lambda told=told: core.watch.pixels < len(told.span) // 4)
         await core.compare(sent, told)
-    for offset, word in pack(core.draw).items():
+    for offset, word in kept(core).items():
         bench.equal(await core.read(NAMES[offset]), word, f"{NAMES[offset]} behind the draw call", 32)
+
+
+def kept(core: Core) -> dict[int, int]:
+    """What the registers hold of the settings: those that the parameters leave out are 0."""
+    there = {
+        field.name
+        for field in built(**{n.lower(): core.bench.parameter(n) for n in ("DIVIDE", "PATH_NORMALS", "COLOUR")})
+    }
+    return pack({name: value if name in there else 0 for name, value in core.draw.items()})
 
 
 async def meddle(core: Core, going_on: Callable[[], bool]) -> None:
     """Read and write any register as long as spans are inside: settings can be read only, clearing changes nothing."""
-    settable = list(pack(core.draw).items())
+    settable = list(kept(core).items())
     bench = core.bench
     await bench.tick(3)
     while going_on():

@@ -321,7 +321,7 @@ async def busy(bench: Bench) -> None:
         (control | CLEAR, 0xF, True),
         (CLEAR, 0b1000, True),
         (control, 0xF, False),
-        (control ^ 1 | CLEAR, 0xF, False),
+        (control ^ 0x100 | CLEAR, 0xF, False),
         (control | 1 << 20 | CLEAR, 0xF, False),
         (CLEAR, 0b0111, False),
         (0, 0, False),

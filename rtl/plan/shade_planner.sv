@@ -108,7 +108,7 @@ module shade_planner #(
 
   // ---- length and degree of the main records ---------------------------------------------------------------------
   logic [ARC_W-1:0] room, log2_q20, log2_q21, log2_q22, log2_q23;
-  logic [DEGREE_W-1:0] degree_q21, degree_q27;
+  logic [DEGREE_W-1:0] degree_q21, degree_q27, degree_q28;
   logic direct_q20, direct_q21, direct_q22, direct_q27, linear_q20, quadratic_q20;
   assign room = whole_q19 > LOG2_MIN ? whole_q19 - LOG2_MIN : '0;
   always_ff @(posedge clk_i) begin
@@ -185,7 +185,8 @@ module shade_planner #(
     .q_o({main, log2, plan_o.last_count, last_log2})
   );
   shade_delay #(.WIDTH(DEGREE_W), .DEPTH(6)) u_degree (.clk_i, .d_i(degree_q21), .q_o(degree_q27));
-  always_ff @(posedge clk_i) plan_o.degree <= fixed_degree_i != '0 && !flat_q27 ? fixed_degree_i : degree_q27;
+  always_ff @(posedge clk_i) degree_q28 <= fixed_degree_i != '0 && !flat_q27 ? fixed_degree_i : degree_q27;
+  assign plan_o.degree      = degree_q28;
   assign plan_o.log2        = LOG2_W'(log2);
   assign plan_o.last_log2   = LOG2_W'(last_log2);
   assign plan_o.main        = main;

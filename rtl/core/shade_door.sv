@@ -90,7 +90,8 @@ module shade_door #(
   assign valid_o            = full_q ? best_q & ready_i : '0;
   assign leave              = valid_o != '0;
   assign s_axis_span_tready = (!full_q || leave) && !hold_i;
-  assign busy_o             = full_q || (take && good) || drawing != '0;
+  // without full_q a beat is taken unless held: no path from ready_i
+  assign busy_o             = full_q || (s_axis_span_tvalid && !hold_i && good) || drawing != '0;
   for (genvar i = 0; i < LANES; i++) begin : g_lane
     assign drawing[i] = left_q[i] != '0;
     always_ff @(posedge clk_i) begin

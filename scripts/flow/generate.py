@@ -4,7 +4,7 @@
 ``rtl/shade_pkg.sv`` from ``golden/contract.py``, ``golden/registers.py`` and ``golden/types.py``, the tables
 ``rtl/fixed/shade_rsqrt_rom.sv`` from ``golden/fixed.py`` and ``rtl/surface/shade_rho_rom.sv`` from
 ``golden/direct.py``, ``docs/registers.md`` from ``golden/registers.py``, ``docs/interface.md`` from
-``golden/packets.py`` and the contract, ``driver/shade_registers.h`` from the registers and packets.
+``golden/packets.py`` and the contract, ``scripts/handoff/driver/shade_registers.h`` from the registers and packets.
 """
 
 from __future__ import annotations
@@ -218,7 +218,7 @@ nothing changes: a draw call cannot be torn. The one exception is `CONTROL` with
 are read.
 
 Values come from physical parameters by `polyshade.golden.material`, words by `polyshade.golden.registers.pack`; without
-Python by the [C driver](../driver/README.md), whose words are the same:
+Python by the [C driver](../scripts/handoff/driver/README.md), whose words are the same:
 
 ```python
 from polyshade.golden.material import Material, colour_registers, planner_registers, registers
@@ -345,7 +345,7 @@ GENERATED = {
     "rtl/fixed/shade_rsqrt_rom.sv": rsqrt_rom,
     "rtl/surface/shade_rho_rom.sv": rho_rom,
     "docs/registers.md": register_map,
-    "driver/shade_registers.h": forms.header,
+    "scripts/handoff/driver/shade_registers.h": forms.header,
 }
 
 

@@ -198,13 +198,17 @@ def build(parts: list[Configuration]) -> None:
     shutil.rmtree(OUT, ignore_errors=True)
     OUT.mkdir(parents=True)
     shutil.copytree(ROOT / "rtl", OUT / "rtl")
-    shutil.copytree(ROOT / "driver", OUT / "driver")
+    shutil.copytree(ROOT / "scripts" / "handoff" / "driver", OUT / "driver")
     shutil.copy(ROOT / "LICENSE", OUT)
     for name in ("lists", "verilog", "constraints", "scripts", "smoke", "docs"):
         (OUT / name).mkdir()
     for name in DOCUMENTS:
         if (ROOT / "docs" / name).exists():
             shutil.copy(ROOT / "docs" / name, OUT / "docs")
+    # in the archive the driver is a folder of the top
+    for path in [*(OUT / "docs").glob("*.md"), *(OUT / "driver").glob("*.md")]:
+        text = path.read_text().replace("../scripts/handoff/driver/", "../driver/")
+        path.write_text(text.replace("../../../docs/", "../docs/"))
     for name, text in flows.CONSTRAINTS.items():
         (OUT / "constraints" / name).write_text(text)
     for name, text in flows.SCRIPTS.items():

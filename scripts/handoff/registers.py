@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The register map in the forms that others read, from ``golden/registers.py``: C, SystemRDL, IP-XACT.
 
-``header`` is ``driver/shade_registers.h`` (``make generate``); ``systemrdl`` and ``memory_map`` are parts of the
+``header`` is ``driver/shade_registers.h`` here (``make generate``); ``systemrdl`` and ``memory_map`` are parts of the
 bundle.
 """
 

@@ -57,7 +57,9 @@ def driver(tmp_path_factory) -> ctypes.CDLL:
     """The driver as a shared library: C99 without a warning."""
     library = tmp_path_factory.mktemp("driver") / "libshade.so"
     flags = ["-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic", "-shared", "-fPIC"]
-    subprocess.run(["gcc", *flags, "-o", library, ROOT / "driver" / "shade.c", "-lm"], check=True)
+    subprocess.run(
+        ["gcc", *flags, "-o", library, ROOT / "scripts" / "handoff" / "driver" / "shade.c", "-lm"], check=True
+    )
     loaded = ctypes.CDLL(str(library))
     loaded.shade_check.restype = ctypes.c_char_p
     loaded.shade_material_default.restype = CMaterial

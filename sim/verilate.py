@@ -57,18 +57,19 @@ class Port:
 
 
 def reached(module: str) -> list[Path]:
-    """The package and the sources of a module and of everything that it instantiates, in the order of the file list."""
-    files = modules() | yardsticks()
-    if module not in files:
-        raise UserError(f"{module}: no such module, allowed {', '.join(files)}")
-    names, todo = set(), {module}
+    """The packages and sources of a module and of all that it instantiates, in the order of the file list."""
+    allowed = modules() | yardsticks()
+    if module not in allowed:
+        raise UserError(f"{module}: no such module, allowed {', '.join(allowed)}")
+    files = {path.stem: path for path in sources()} | allowed  # with the packages
+    names, todo = {"shade_pkg"}, {module}
     while todo:
         name = todo.pop()
         names.add(name)
         text = re.sub(r"//.*", "", files[name].read_text())
         todo |= {word for word in re.findall(r"\bshade_\w+", text) if word in files} - names
     listed = [*sources(), *yardsticks().values()]
-    return [path for path in listed if path.stem in names or path.stem.endswith("_pkg")]
+    return [path for path in listed if path.stem in names]
 
 
 def run(command: list[str | Path], directory: Path) -> None:

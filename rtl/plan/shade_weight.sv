@@ -82,16 +82,16 @@ module shade_weight #(
   localparam int X_W = F + 1;
   localparam int N_W = 14;  // below 2^13
   localparam int LATER = FOLD < 3 ? 0 : FOLD;
-  logic signed [DOT_W-1:0] rest;
+  logic signed [DOT_W-1:0] rest_q;
   logic [X_W-1:0] x_q, x_shifted_q;
   logic [N_W-1:0] far_q, far;
-  assign rest = DOT_W'(1 << F) - DOT_W'(sum >>> DROP);
   always_ff @(posedge clk_i) begin
-    x_q         <= rest < 0 ? '0 : rest >= DOT_W'(2 << F) ? '1 : X_W'(rest);
+    rest_q      <= DOT_W'(1 << F) - DOT_W'(sum >>> DROP);
+    x_q         <= rest_q < 0 ? '0 : rest_q >= DOT_W'(2 << F) ? '1 : X_W'(rest_q);
     x_shifted_q <= x_q >> (~planner_i.sharpness_exp & 4'b1100);
     far_q       <= N_W'({1'b0, x_shifted_q} >> 1 >> (~planner_i.sharpness_exp & 4'b0011));
   end
-  shade_ring #(.WIDTH(N_W), .DEPTH(shade_pkg::LATENCY_KAPPA + LATER - SUMMED - 3)) u_far (
+  shade_ring #(.WIDTH(N_W), .DEPTH(shade_pkg::LATENCY_KAPPA + LATER - SUMMED - 4)) u_far (
     .clk_i, .rst_i, .d_i(far_q), .q_o(far)
   );
 

@@ -78,7 +78,7 @@ module formal_registers (
       // Settings change a clock after change_o, and only if the core was not busy.
       // mutant: setting_q && busy_i && !clears_q => setting_q && !clears_q && !busy_i
       draw_kept : assert (reset_q || draw == draw_q || (change_q && !busy_q));
-      // mutant: draw_o  <= shade_pkg::DRAW_RESET => draw_o  <= '0
+      // mutant: draw_o  <= first => draw_o  <= '0
       draw_reset : assert (!reset_q || draw == shade_pkg::DRAW_RESET);
       // mutant: clear_o <= write && !refused => clear_o <= merge_q && !refused
       clear_told : assert (!clear || change_q);

@@ -121,14 +121,14 @@ def sane(folder: Path, hints: int = 0) -> dict:
     assert len(report.pop("hints", [])) == hints
     assert set(report) == {*KEYS, *MORE_KEYS, *KEYS_OF_PATH[report["path"]], *KEYS_OF_FORM[report["form"]]}
     assert all(key == key.lower() for key in report)
-    plain = {key: value for key, value in report.items() if key not in ("versions", "repairs", "counters")}
+    plain = {key: value for key, value in report.items() if key not in ("versions", "repairs", "counters", "lights")}
     assert all(value is None or isinstance(value, str | int | float) for value in plain.values())
 
     pixels, cycles = report["pixels"], report["cycles"]
     assert report["mismatches"] == 0
     assert report["visible_pixels"] <= pixels <= cycles * report["lanes"] or pixels == 0
     evaluations = report["light_evaluations"]
-    if report["path"] in frame.SURFACE_MODELS:
+    if report["path"] in {*frame.SURFACE_MODELS, "vector"}:
         assert report["counters"] == {"pixels": pixels, "errors": 0}
     else:
         assert list(report["counters"]) == COUNTERS

@@ -92,6 +92,12 @@ CASES = {
         "shade_stretch", {}, {"job_i": JOBS, "plan_i": NOTHING, "out_stall": 0.5, "patience": 50},
         ("chosen_valid_q && (!valid_o || ready_i)", "chosen_valid_q"),
     ),
+    "shade_stretch.u_log2": (
+        "shade_stretch", {}, {"job_i": JOBS, "plan_i": NOTHING | {"last_degree": 1, "last_log2": 6}}, ()
+    ),
+    "shade_poly_line.u_legal": (
+        "shade_poly_line", {}, {"s_axis_span_tdata": np.zeros((9, k.RECORD_DATA_W // 32), np.uint32)}, ()
+    ),
     "shade_line.u_job": (
         "shade_line", {"FOLD": 6}, {"pace": 6, "span_i": EMPTY_SPAN | {"count": [1] * 9}, "draw_i": 0, "credit_i": 0},
         ("u_jobs ( .clk_i, .rst_i, .valid_i(take)", "u_jobs (.clk_i, .rst_i, .valid_i(1'b0)"),

@@ -818,6 +818,8 @@ def test_units(polyshade, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     few = [case for case in cases() if case.module in ("shade_third", "shade_horner_step")]
     few = [case for case in few if case.parameters["WIDTH"] in (20, 26, 30)]
     monkeypatch.setattr(units, "cases", lambda: few)
+    stream = {"shade_poly_line/refined": units.measured()["shade_poly_line/refined"]}
+    monkeypatch.setattr(units, "measured", lambda: stream)
     monkeypatch.setattr(units, "OUT", place / "units.json")
     status, out, err = polyshade("units", "--vectors", "1000")
     assert (status, err) == (0, "")

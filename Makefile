@@ -73,7 +73,7 @@ synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.
 soak: $(READY) ## Random work against the golden model: MINUTES=1 SEED=1; leaves build/soak.json
 	$(BIN)/polyshade soak --minutes $(or $(MINUTES),1) --seed $(or $(SEED),1)
 
-board: $(READY) ## Make the bitstream of a board: BOARD=ulx3s; leaves build/boards
+board: $(READY) ## Make the bitstream of a board: BOARD=ulx3s; leaves build/board
 	$(BIN)/polyshade board '$(or $(BOARD),$(error BOARD is empty: allowed ulx3s))'
 
 pictures: $(READY) ## Make the pictures of the READMEs again, in docs

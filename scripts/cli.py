@@ -397,7 +397,7 @@ def soak(minutes: float, seed: int, scheduler: str | None, kind: str) -> None:
 @cli.command()
 @click.argument("name")
 def board(name: str) -> None:
-    """Make the bitstream of a board (ulx3s); leaves build/boards/."""
+    """Make the bitstream of a board (ulx3s); leaves build/board/."""
     from polyshade.scripts import boards
 
     boards.main(name)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The ULX3S: tables of the machine, its golden model, what comes out of its video pins, its bitstream.
 
-``make board BOARD=ulx3s`` leaves ``build/boards/ulx3s/ulx3s.bit`` and ``report.json``: clock rates and what is used.
+``make board BOARD=ulx3s`` leaves ``build/board/ulx3s/ulx3s.bit`` and ``report.json``: clock rates and what is used.
 ``capture`` runs the whole board in Verilator and takes the pictures off the pins; ``picture`` is what they must be, bit
 for bit.
 """
@@ -37,7 +37,7 @@ from polyshade.sim.tools import environment, verilator
 Ints = NDArray[np.int64]
 
 HERE = ROOT / "boards" / "ulx3s"
-WORK = BUILD / "boards" / "ulx3s"
+WORK = BUILD / "board" / "ulx3s"
 TOP = "ulx3s"
 OWN = sorted((HERE / "rtl").glob("*.sv"), key=lambda path: (path.stem == TOP, path.stem == "board_machine", path.stem))
 COLUMNS, LINES = 320, 240

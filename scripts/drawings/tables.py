@@ -21,16 +21,6 @@ from polyshade.sim.sources import BUILD, ROOT
 FIGURES = ROOT / "docs" / "figures.json"
 DOCUMENTS = ("README.md", "docs/results.md", "docs/architecture.md")
 BLOCK = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
-SHORT_SYNTH = {  # design: what it is
-    "shade_core[REFLECT=0,DIVIDE=0,PATH_NORMALS=0]": "`shade_core`, Lambert and Blinn-Phong, one pixel a clock",
-    "shade_core[FOLD=6,REFLECT=0,DIVIDE=0,PATH_NORMALS=0]": "the same with FOLD = 6: a node in six clocks",
-    "shade_phong[REFLECT=0,DIVIDE=0]": "yardstick `shade_phong`, the same by normalizing and lighting every pixel",
-    "shade_light": "`shade_light`: six models at a node, one a clock",
-    "shade_lobe": "`shade_lobe`: every highlight, one a clock",
-    "shade_unit": "`shade_unit`: a normal to unit length, one a clock",
-    "shade_planner": "`shade_planner`: spans into records, one a clock",
-    "shade_normalize": "`shade_normalize`: vectors of any length, one a clock",
-}
 SHORT = ("direct/1/blinn/1", "patch/1/blinn/1", "patch/4/blinn/1", "line/1/blinn/1", "vector/1/blinn/1")
 UNIT_KEYS = ("vectors", "exhaustive", "mismatches", "max_error_ulp", "max_error_ideal", "latency", "throughput")
 Figures = dict[str, object]
@@ -167,14 +157,6 @@ def machines(figures: Figures) -> str:
 AREA = ("lut", "ff", "dsp", "bram")
 
 
-def short_synth(figures: Figures) -> str:
-    """The README's: the largest units and their yardstick."""
-    found = figures["synth"]
-    chosen = [(words, found[name]["ecp5"]) for name, words in SHORT_SYNTH.items() if name in found]
-    rows = ([words, part["lut"], part["ff"], part["dsp"], fixed(part["fmax_mhz"], 0)] for words, part in chosen)
-    return markdown(["", "LUT", "FF", "DSP", "MHz"], rows)
-
-
 def synth(figures: Figures) -> str:
     """ECP5 of every module and point; other families where they were measured."""
     families = sorted({family for found in figures["synth"].values() for family in found} - {"ecp5"})
@@ -241,7 +223,6 @@ def formal(figures: Figures) -> str:
 TABLES: dict[str, tuple[str, Callable[[Figures], str]]] = {  # name: part of the extract, function
     "short_machines": ("machines", short_machines),
     "machines": ("machines", machines),
-    "short_synth": ("synth", short_synth),
     "synth": ("synth", synth),
     "units": ("units", units),
     "papers": ("papers", papers),

@@ -6,7 +6,7 @@ from polyshade.scripts.flow import lint
 
 
 def checks() -> list:
-    """Verilator reads the first two points of a module, Yosys the first."""
+    """Verilator reads the first point of every module, Yosys that of every top."""
     return [
         pytest.param(item, id=item.name.replace(" ", "-"), marks=pytest.mark.full if item.slow else ())
         for item in lint.items()

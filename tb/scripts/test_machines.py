@@ -7,7 +7,12 @@ from polyshade.scripts.studies import machines
 KEYS = {"pixels_per_clock", "products_per_pixel", "evaluations_per_pixel", "nmse_diffuse", "nmse_specular"}
 
 
-@pytest.mark.parametrize("name", machines.MACHINES)
+FIRST = {name.partition("/")[0]: name for name in reversed(machines.MACHINES)}  # of each path
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=() if n in FIRST.values() else pytest.mark.full) for n in machines.MACHINES]
+)
 def test_speed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """One lane never gives more than a pixel a clock; no machine is far from the original model."""
     monkeypatch.setattr(machines, "SCENES", {"head1024": ("head", 0, 64), "sphere320": ("sphere", 0, 64)})

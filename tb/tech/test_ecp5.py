@@ -56,7 +56,7 @@ def test_products(tmp_path, a_w: int, b_w: int, stages: int) -> None:
     assert np.array_equal(run.p_o, a * b)
 
 
-@pytest.mark.parametrize("point", [{}, *POINTS["shade_mul"]], ids=str)
+@pytest.mark.parametrize("point", [{}, *POINTS["shade_mul"]][: None if FULL else 4], ids=str)
 def test_registers_are_in_the_block(tmp_path, point: dict[str, int]) -> None:
     """No register is left in fabric but that of a sum of two products, and none of the blocks is without its own."""
     read(tmp_path, point, "synth_ecp5 -top shade_mul\nwrite_json netlist.json")

@@ -271,6 +271,7 @@ LATENCY_UNIT_FOLDED = 28  # FOLD = 3 .. 8: turns of a multiplier
 LATENCY_WEIGH = 4  # a tree of adders
 LATENCY_DOT3 = LATENCY_MUL + 2  # products, two adders
 LATENCY_HALF = 1 + LATENCY_WEIGH  # the choice of a straight line
+LATENCY_DOT_SCALED = LATENCY_MUL + 3  # products, sum, two shifter levels
 LATENCY_INVC = 1 + 2 * LATENCY_MUL + LATENCY_WEIGH  # u = 1 - c, u^2, u^4
 LATENCY_SCALE3 = LATENCY_MUL + 1  # products, rounding
 LATENCY_MIDPOINT = LATENCY_INVC + LATENCY_SCALE3

@@ -49,6 +49,16 @@ class Coefficients(NamedTuple):
     p_both: Int
 
 
+def dot_scaled(v: ArrayLike, w: ArrayLike, shift: ArrayLike) -> Int:
+    """2 (v . w) / 2^shift of vectors (..., 3) S1.16, S1.36, modulo 4, the rest cut (``shade_dot_scaled``).
+
+    >>> int(dot_scaled([0, 0, 65536], [0, 0, 65536], 1)) / 2**36
+    1.0
+    """
+    (v, w), (shift,) = integers(v, w), integers(shift)
+    return wrap((v * w).sum(axis=-1) << k.DIRECT_P_F + 1 - VECTOR_F >> shift, k.PATCH_SCALAR_W)
+
+
 def setup(normal: ArrayLike, dcolumn, dcolumn_exp, dline, dline_exp, light, half) -> Coefficients:
     """Coefficients from vectors (..., 3) S1.16; increments are divided by 2^exp (``shade_direct_setup``).
 
@@ -63,17 +73,14 @@ def setup(normal: ArrayLike, dcolumn, dcolumn_exp, dline, dline_exp, light, half
     n, c, l, light, half = (np.asarray(v, np.int64) for v in (normal, dcolumn, dline, light, half))  # noqa: E741
     ec, el = integers(dcolumn_exp, dline_exp)
 
-    def dot(v: Int, w: Int) -> Int:
-        return (v * w).sum(axis=-1)
-
     def a(v: Int, e: Int) -> Int:
-        return wrap(dot(v, light) >> e + VECTOR_F - k.DIRECT_A_F, k.DIRECT_A_W)
+        return wrap(dot_scaled(v, light, e + 1) >> k.DIRECT_P_F - k.DIRECT_A_F, k.DIRECT_A_W)
 
     def h(v: Int, e: Int) -> Int:
-        return wrap(dot(v, half) >> e + VECTOR_F - k.DIRECT_H_F, k.DIRECT_H_W)
+        return wrap(dot_scaled(v, half, e + 1) >> k.DIRECT_P_F - k.DIRECT_H_F, k.DIRECT_H_W)
 
     def p(v: Int, w: Int, twice: int, e: Int) -> Int:
-        return dot(v, w) << k.DIRECT_P_F - VECTOR_F + twice >> e & (1 << k.DIRECT_P_W) - 1
+        return dot_scaled(v, w, e + 1 - twice) & (1 << k.DIRECT_P_W) - 1
 
     zero = np.int64(0)
     return Coefficients(

@@ -93,6 +93,7 @@ light/shade_light.sv
 light/shade_light_local.sv
 core/shade_collect.sv
 core/shade_paint.sv
+core/shade_counters.sv
 core/shade_registers.sv
 core/shade_door.sv
 core/shade_tally.sv
@@ -112,6 +113,7 @@ surface/shade_patch_plan.sv
 surface/shade_patch_rows.sv
 surface/shade_patch_clip.sv
 surface/shade_patch_boxes.sv
+surface/shade_dot_scaled.sv
 surface/shade_patch_setup.sv
 surface/shade_patch_walk.sv
 surface/shade_patch_nodes.sv

@@ -288,6 +288,7 @@ package shade_pkg;
   localparam int LATENCY_WEIGH = 4;  // a tree of adders
   localparam int LATENCY_DOT3 = 4;  // products, two adders
   localparam int LATENCY_HALF = 5;  // the choice of a straight line
+  localparam int LATENCY_DOT_SCALED = 5;  // products, sum, two shifter levels
   localparam int LATENCY_INVC = 9;  // u = 1 - c, u^2, u^4
   localparam int LATENCY_SCALE3 = 3;  // products, rounding
   localparam int LATENCY_MIDPOINT = 12;

@@ -60,28 +60,6 @@ module shade_registers #(
   localparam logic [11:0] WORD = 12'hffc;  // an address without its byte
   localparam int CLEAR = shade_pkg::REG_CONTROL_CLEAR_LSB;
 
-  // ---- counters and status -----------------------------------------------------------------------------------------
-  logic [31:0] pixels_q, spans_q, clocks_q, stalls_q, evaluations_q, errors_q;
-  shade_pkg::status_t status_q;
-  always_ff @(posedge clk_i) begin
-    pixels_q      <= (clear_o ? 32'd0 : pixels_q) + 32'(counts_i.pixels);
-    spans_q       <= (clear_o ? 32'd0 : spans_q) + 32'(counts_i.spans);
-    clocks_q      <= (clear_o ? 32'd0 : clocks_q) + 32'(busy_i);
-    stalls_q      <= (clear_o ? 32'd0 : stalls_q) + 32'(counts_i.stalls);
-    evaluations_q <= (clear_o ? 32'd0 : evaluations_q) + 32'(counts_i.evaluations);
-    errors_q      <= (clear_o ? 32'd0 : errors_q) + 32'(counts_i.errors);
-    status_q      <= (clear_o ? '0 : status_q) | events_i;
-    if (rst_i) begin
-      pixels_q      <= 32'd0;
-      spans_q       <= 32'd0;
-      clocks_q      <= 32'd0;
-      stalls_q      <= 32'd0;
-      evaluations_q <= 32'd0;
-      errors_q      <= 32'd0;
-      status_q      <= '0;
-    end
-  end
-
   // ---- channels: each holds a beat until it is served; not ready means that it does ----------------------------------
   logic write, read;  // an access ends
   logic [11:0] write_at_q, read_at_q;
@@ -123,7 +101,7 @@ module shade_registers #(
   assign read     = end_q && !write_q;
   assign change_o = write;
 
-  logic [31:0] draw_q, own_q, word_q, absent;  // absent: bits of CONTROL
+  logic [31:0] draw_q, own_q, word_q, absent;  // own: no setting; absent: bits of CONTROL
   logic [3:0][7:0] data, word, merged;
   logic mapped_q, setting_q, clears_q;
   assign data = data_q;
@@ -132,22 +110,14 @@ module shade_registers #(
     assign merged[i] = write_q && strobe_q[i] ? data[i] : word[i];
   end
   logic own;
-  assign own = select_q.id || select_q.version || select_q.status || select_q.pixels || select_q.spans || select_q.clocks
-            || select_q.stalls || select_q.evaluations || select_q.errors;
+  shade_counters u_counters (
+    .clk_i, .rst_i, .clear_i(clear_o), .busy_i, .events_i, .counts_i, .select_i(select_q), .own_o(own), .word_o(own_q)
+  );
   always_ff @(posedge clk_i) begin
     if (look_q) begin
       mapped_q  <= select_q != '0;
       setting_q <= !own;
       draw_q    <= shade_pkg::draw_word(draw_o, select_q);
-      own_q     <= ({32{select_q.id}} & 32'(shade_pkg::REG_ID_RESET))
-                 | ({32{select_q.version}} & 32'(shade_pkg::REG_VERSION_RESET))
-                 | ({32{select_q.status}} & shade_pkg::status_word(busy_i, status_q))
-                 | ({32{select_q.pixels}} & pixels_q)
-                 | ({32{select_q.spans}} & spans_q)
-                 | ({32{select_q.clocks}} & clocks_q)
-                 | ({32{select_q.stalls}} & stalls_q)
-                 | ({32{select_q.evaluations}} & evaluations_q)
-                 | ({32{select_q.errors}} & errors_q);
     end
     if (merge_q) begin
       word_q   <= merged;

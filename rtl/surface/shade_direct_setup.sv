@@ -26,7 +26,6 @@ module shade_direct_setup (
   output shade_pkg::coefficients_t    coefficients_o
 );
   localparam int W = shade_pkg::INTENSITY_W;
-  localparam int DOT_W = 2 * W + 1;  // three products S1.16: S4.32
   localparam int EXP_W = shade_pkg::TRIANGLE_EXP_W;
   localparam int P_W = shade_pkg::DIRECT_P_W;
   localparam int H_W = shade_pkg::DIRECT_H_W;
@@ -93,10 +92,13 @@ module shade_direct_setup (
       default: shift = 5'(exp_q) + 5'(exp_c_q);
     endcase
   end
-  logic signed [2*W-1:0] px, py, pz;
-  shade_mul #(.A_W(W), .B_W(W)) u_x (.clk_i, .a_i(now_q.x), .b_i(other.x), .p_o(px));
-  shade_mul #(.A_W(W), .B_W(W)) u_y (.clk_i, .a_i(now_q.y), .b_i(other.y), .p_o(py));
-  shade_mul #(.A_W(W), .B_W(W)) u_z (.clk_i, .a_i(now_q.z), .b_i(other.z), .p_o(pz));
+  localparam int RESULT_W = shade_pkg::PATCH_SCALAR_W;
+  logic signed [2*W-1:0] unused_x, unused_y, unused_z;
+  logic signed [RESULT_W-1:0] result_q;
+  shade_dot_scaled u_dot (
+    .clk_i, .a_i(now_q), .b_i(other), .shift_i(shift), .product_x_o(unused_x), .product_y_o(unused_y),
+    .product_z_o(unused_z), .d_o(result_q)
+  );
 
   // where a product goes, beside it
   typedef struct packed {
@@ -107,26 +109,12 @@ module shade_direct_setup (
   } job_t;
   job_t job, job_q;
   assign job = {busy_q, skip_q, kind_q, step_q};
-  localparam int LATENCY = shade_pkg::LATENCY_MUL + 3;  // product, sum, two levels of shifters
+  localparam int LATENCY = shade_pkg::LATENCY_DOT_SCALED;
   shade_delay #(.WIDTH($bits(job)), .DEPTH(LATENCY)) u_job (.clk_i, .d_i(job), .q_o(job_q));
   logic complete;
   shade_valid #(.DEPTH(LATENCY)) u_complete (
     .clk_i, .rst_i, .valid_i(busy_q && kind_q == LINE && last), .valid_o(complete)
   );
-  logic [4:0] shift_p, shift_q;
-  shade_delay #(.WIDTH(5), .DEPTH(shade_pkg::LATENCY_MUL + 1)) u_shift (.clk_i, .d_i(shift), .q_o(shift_p));
-
-  localparam int UP = shade_pkg::DIRECT_P_F - 2 * shade_pkg::INTENSITY_F + 1;
-  localparam int RESULT_W = P_W + 1;
-  logic signed [DOT_W-1:0] dot_q;
-  logic signed [DOT_W+UP-1:0] coarse_q;
-  logic signed [RESULT_W-1:0] result_q;
-  always_ff @(posedge clk_i) begin
-    dot_q    <= DOT_W'(px) + DOT_W'(py) + DOT_W'(pz);
-    coarse_q <= $signed({dot_q, UP'(0)}) >>> {shift_p[4:3], 3'd0};
-    shift_q  <= shift_p;
-    result_q <= RESULT_W'(coarse_q >>> shift_q[2:0]);
-  end
 
   // ---- banks --------------------------------------------------------------------------------------------------------
   // P's growth to the next pixel is 2 n.c + c.c, two results that follow each other
@@ -191,5 +179,5 @@ module shade_direct_setup (
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, vector_i, shift_q, before_q};
+  assign unused_bits = &{1'b0, vector_i, before_q};
 endmodule

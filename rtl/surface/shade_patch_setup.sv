@@ -38,7 +38,6 @@ module shade_patch_setup #(
   output logic                                         range_o
 );
   localparam int W = shade_pkg::INTENSITY_W;
-  localparam int DOT_W = 2 * W + 1;  // three products S1.16: S4.32
   localparam int PLACE_W = shade_pkg::PLACE_W;
   localparam int PART_F = shade_pkg::PATCH_PART_F;
   localparam logic [3:0] SELF = 4'(2 * LIGHTS + 1);  // step: 0 a part of the way to M, 1 .. 2 LIGHTS with L and H, self, others
@@ -115,10 +114,12 @@ module shade_patch_setup #(
       default:     shift = vector ? 5'(exp) + 5'd1 : 5'd1;
     endcase
   end
+  localparam int RESULT_W = shade_pkg::PATCH_SCALAR_W;
   logic signed [2*W-1:0] px, py, pz;
-  shade_mul #(.A_W(W), .B_W(W)) u_x (.clk_i, .a_i(now.x), .b_i(other.x), .p_o(px));
-  shade_mul #(.A_W(W), .B_W(W)) u_y (.clk_i, .a_i(now.y), .b_i(other.y), .p_o(py));
-  shade_mul #(.A_W(W), .B_W(W)) u_z (.clk_i, .a_i(now.z), .b_i(other.z), .p_o(pz));
+  logic signed [RESULT_W-1:0] result_q;
+  shade_dot_scaled u_dot (
+    .clk_i, .a_i(now), .b_i(other), .shift_i(shift), .product_x_o(px), .product_y_o(py), .product_z_o(pz), .d_o(result_q)
+  );
 
   // ---- where a product goes, beside it ------------------------------------------------------------------------------------------
   typedef struct packed {
@@ -143,11 +144,10 @@ module shade_patch_setup #(
     endcase
   end
   localparam int MUL = shade_pkg::LATENCY_MUL;
-  logic [4:0] shift_p, shift_q;
-  shade_delay #(.WIDTH($bits(job)), .DEPTH(MUL + 3)) u_job (.clk_i, .d_i(job), .q_o(job_q));
+  localparam int LATENCY = shade_pkg::LATENCY_DOT_SCALED;
+  shade_delay #(.WIDTH($bits(job)), .DEPTH(LATENCY)) u_job (.clk_i, .d_i(job), .q_o(job_q));
   shade_delay #(.WIDTH(2), .DEPTH(MUL)) u_parts (.clk_i, .d_i(parts), .q_o(parts_p));
-  shade_delay #(.WIDTH(5), .DEPTH(MUL + 1)) u_shift (.clk_i, .d_i(shift), .q_o(shift_p));
-  shade_valid #(.DEPTH(MUL + 3)) u_valid (.clk_i, .rst_i, .valid_i(made), .valid_o(made_q));
+  shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i(made), .valid_o(made_q));
 
   // ---- M -------------------------------------------------------------------------------------------------------------------------
   localparam int M_W = 2 * W - PART_F + 2;
@@ -168,22 +168,12 @@ module shade_patch_setup #(
   end
   always_ff @(posedge clk_i) range_o <= kind_q == MIDDLE && wide != '0 && !rst_i;
 
-  // ---- dot products -----------------------------------------------------------------------------------------------------------------
-  localparam int UP = shade_pkg::DIRECT_P_F - 2 * shade_pkg::INTENSITY_F + 1;
-  localparam int RESULT_W = shade_pkg::PATCH_SCALAR_W;
-  logic signed [DOT_W-1:0] dot_q;
-  logic signed [DOT_W+UP-1:0] coarse_q;
-  logic signed [RESULT_W-1:0] result_q;
   always_ff @(posedge clk_i) begin
-    dot_q    <= DOT_W'(px) + DOT_W'(py) + DOT_W'(pz);
-    coarse_q <= $signed({dot_q, UP'(0)}) >>> {shift_p[4:3], 3'd0};
-    shift_q  <= shift_p;
-    result_q <= RESULT_W'(coarse_q >>> shift_q[2:0]);
-    valid_o  <= made_q && !rst_i;
-    last_o   <= job_q.last;
+    valid_o <= made_q && !rst_i;
+    last_o  <= job_q.last;
     {which_o, at_o} <= {job_q.which, job_q.at};
-    value_o  <= job_q.head ? RESULT_W'({shade_pkg::PATCH_AT_W'(left_q >> kx_q), kx_q, ky_q}) : result_q;
+    value_o <= job_q.head ? RESULT_W'({shade_pkg::PATCH_AT_W'(left_q >> kx_q), kx_q, ky_q}) : result_q;
   end
   logic unused_bits;
-  assign unused_bits = &{1'b0, beat, shift_q, part};
+  assign unused_bits = &{1'b0, beat, part};
 endmodule

@@ -49,7 +49,7 @@ CATALOGUE = RTL / "README.md"
 CARRIERS = {
     *("shade_delay", "shade_ring", "shade_hold", "shade_wait", "shade_valid"),
     *("shade_fifo", "shade_credit", "shade_assert", "shade_stable"),
-    *("shade_door", "shade_tally", "shade_pixel_points"),
+    *("shade_door", "shade_tally", "shade_counters", "shade_pixel_points"),
 }
 # Machines of many parts, shade_patch_<part>, with one golden model, golden/patch.py or golden.raster.setup, and one
 # bench, that of the whole.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The direct form: 1/sqrt(P) - 1."""
+"""The scalars of the direct form and of patches: dot products, and 1/sqrt(P) - 1."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from polyshade.golden import contract as k
 from polyshade.golden import direct
-from polyshade.sim.units.case import Arrays, Case, Real, every, in_forms
+from polyshade.sim.units.case import ONE, Arrays, Case, Real, every, in_forms, mixed, signed_range
 
 LENGTHS = 1 << k.DIRECT_P_OUT_F + 1
 
@@ -45,6 +45,31 @@ def _rho(form: str) -> Iterator[Case]:
     )  # fmt: skip
 
 
+def _dot_scaled(form: str) -> Iterator[Case]:
+    """Dot products of any vectors at every shift, next to the ends of its range, too: modulo 4, cut."""
+    if form != "refined":
+        return
+    axes = {name: [f"{name}.{axis}" for axis in "xyz"] for name in ("a_i", "b_i")}
+
+    def parts(i: Arrays) -> tuple[np.ndarray, np.ndarray]:
+        return tuple(np.stack([i[axis] for axis in axes[name]], axis=-1) for name in axes)
+
+    def golden(i: Arrays) -> Arrays:
+        return {"d_o": direct.dot_scaled(*parts(i), i["shift_i"])}
+
+    def exact(i: Arrays) -> Arrays:
+        dot = (np.multiply(*parts(i))).sum(axis=-1).astype(Real)
+        d = np.ldexp(dot, k.DIRECT_P_F + 1 - direct.VECTOR_F - i["shift_i"])
+        turn = Real(1 << k.PATCH_SCALAR_W)
+        return {"d_o": d - turn * np.floor(d / turn + Real(0.5))}
+
+    inputs = dict.fromkeys([*axes["a_i"], *axes["b_i"]], signed_range(k.INTENSITY_W)) | {"shift_i": (0, 31)}
+    yield Case(
+        "shade_dot_scaled", form, {}, golden, exact, exact, mixed(inputs, ONE, -ONE), None, k.LATENCY_DOT_SCALED,
+        bound=1, unit_f=k.DIRECT_P_F,
+    )  # fmt: skip
+
+
 def cases() -> list[Case]:
     """All cases of this file."""
-    return list(in_forms(_rho))
+    return [*in_forms(_dot_scaled), *in_forms(_rho)]

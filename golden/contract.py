@@ -251,7 +251,6 @@ PATCH_USER_W = 2 * PLACE_W + TAG_W  # tuser of shade_patch
 # ---- latencies, in clocks from an input taken to the output it causes -------------------------------------------
 LATENCY_MUL = 2  # operands, product; of wide operands partial products, their sum
 LATENCY_MUL_IN = LATENCY_MUL + 1  # STAGES = 3: the operands in front of them
-LATENCY_SQUARE_FABRIC = 4  # a tree of adders
 LATENCY_THIRD = 5  # four adders, one rounding
 LATENCY_COEF = 3 + LATENCY_THIRD + 1  # differences, two levels of adders, x/3, sum with what is not divided
 LATENCY_HORNER_STEP = LATENCY_MUL + 1  # product, sum with the next coefficient
@@ -288,7 +287,7 @@ LATENCY_HALFWAY = 1 + LATENCY_NORMALIZE + LATENCY_DOT3 + 1  # sum, H, V.H, clamp
 LATENCY_FRESNEL = 1 + 4 * (LATENCY_MUL + 1)  # u = 1 - c, u^2, u^4, u^5, the blend
 LATENCY_LOBE_BASE = 3 + 2 * (LATENCY_MUL + 2)  # the shifted x; two products, each with a sum and its range
 LATENCY_LOBE_POWER = LATENCY_MUL + 2  # square, difference, choice of the half
-LATENCY_LOBE = LATENCY_LOBE_BASE + 2 * LATENCY_LOBE_POWER + 2 * (LATENCY_SQUARE_FABRIC + 2)  # POWER = 4
+LATENCY_LOBE = LATENCY_LOBE_BASE + 4 * LATENCY_LOBE_POWER  # POWER = 4
 LATENCY_LOBE_FOLDED = 3 + 6 * (LATENCY_MUL + 3)  # POWER = 4: the shifted x, six turns of the multiplier
 LATENCY_GEOMETRY = 1 + 2 * (LATENCY_MUL + 1) + LATENCY_RSQRT + 1 + LATENCY_MUL + 2  # see shade_geometry
 LATENCY_GAIN = 3 * LATENCY_MUL_IN + 3  # products, two shifter levels, rounding
@@ -342,7 +341,7 @@ LATENCY_CHORD = 2 + LATENCY_MUL + 2  # the scaled x, the table, the product, the
 LATENCY_DIRECT_LIGHT = LATENCY_RHO + LATENCY_MUL + 1 + LATENCY_CHORD  # rho, products, sums, the lobe
 LATENCY_PHONG = 1 + LATENCY_INCREMENT + LATENCY_NORMALIZE + LATENCY_LIGHT + 1 + LATENCY_FIFO  # span, ..., clamp, FIFO
 
-# ---- products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric ------------
+# ---- products of two 18-bit numbers that a unit computes for each result ---------------------------------
 PRODUCTS_KAPPA = 4  # for each new increment
 PRODUCTS_WEIGHT = 3  # for each span
 PRODUCTS_NORMALIZE = 11

@@ -177,7 +177,7 @@ def products(
 
     kappa's of every span whose increment is not that of the span before, its weight's of every span, those of a normal
     and of its light at every node, Horner's at every pixel. A wide multiplication counts as the two that it is cut
-    into; squares in the fabric count as well.
+    into.
 
     >>> products([[0, 0, 0]], lane([[0, 0, 1 << 29]], [[0, 0, 0]], [2], {}), reflect=0, divide=0)  # 4 + 3 + 2 (8 + 15)
     53

@@ -13,7 +13,6 @@ fixed/shade_limit.sv
 fixed/shade_clamp.sv
 fixed/shade_mul.sv
 fixed/shade_square.sv
-fixed/shade_square_fabric.sv
 fixed/shade_weigh.sv
 fixed/shade_third.sv
 fixed/shade_rsqrt_rom.sv

@@ -268,7 +268,6 @@ package shade_pkg;
   // latencies, in clocks from an input taken to the output it causes
   localparam int LATENCY_MUL = 2;  // operands, product; of wide operands partial products, their sum
   localparam int LATENCY_MUL_IN = 3;  // STAGES = 3: the operands in front of them
-  localparam int LATENCY_SQUARE_FABRIC = 4;  // a tree of adders
   localparam int LATENCY_THIRD = 5;  // four adders, one rounding
   localparam int LATENCY_COEF = 9;  // differences, two levels of adders, x/3, sum with what is not divided
   localparam int LATENCY_HORNER_STEP = 3;  // product, sum with the next coefficient
@@ -305,16 +304,16 @@ package shade_pkg;
   localparam int LATENCY_FRESNEL = 13;  // u = 1 - c, u^2, u^4, u^5, the blend
   localparam int LATENCY_LOBE_BASE = 11;  // the shifted x; two products, each with a sum and its range
   localparam int LATENCY_LOBE_POWER = 4;  // square, difference, choice of the half
-  localparam int LATENCY_LOBE = 31;  // POWER = 4
+  localparam int LATENCY_LOBE = 27;  // POWER = 4
   localparam int LATENCY_LOBE_FOLDED = 33;  // POWER = 4: the shifted x, six turns of the multiplier
   localparam int LATENCY_GEOMETRY = 22;  // see shade_geometry
   localparam int LATENCY_GAIN = 12;  // products, two shifter levels, rounding
-  localparam int LATENCY_FACTOR = 32;  // the lobe or what stands for it; what it is multiplied by
+  localparam int LATENCY_FACTOR = 28;  // the lobe or what stands for it; what it is multiplied by
   localparam int LATENCY_ANGLES = 17;  // R, choice of R, V or N, H
-  localparam int LATENCY_LIGHT = 61;
+  localparam int LATENCY_LIGHT = 57;
   localparam int LATENCY_ANGLES_FOLDED = 11;  // six products, their sums, clamp
   localparam int LATENCY_LIGHT_FOLDED = 56;  // FOLD = 5: 5 more, as of the lobe
-  localparam int LATENCY_LIGHT_LOCAL = 76;
+  localparam int LATENCY_LIGHT_LOCAL = 72;
   localparam int LATENCY_COLOUR = 6;  // negative light, products, two adders, saturation
   localparam int LATENCY_KAPPA = 14;  // common shift, squares, sums, product, shift, range
   localparam int LATENCY_PLANNER = 29;  // see shade_planner
@@ -327,20 +326,20 @@ package shade_pkg;
   localparam int LATENCY_POLY_START = 13;
   localparam int LATENCY_POLY_STATE = 3;  // the state, the rounding, the clamp
   localparam int LATENCY_POLY_LINE = 20;  // one: the specular channel
-  localparam int LATENCY_RECORD = 86;  // normal to pixel
-  localparam int LATENCY_LANE = 142;
-  localparam int LATENCY_LANE_NORMALS = 129;  // the path of normals
+  localparam int LATENCY_RECORD = 82;  // normal to pixel
+  localparam int LATENCY_LANE = 138;
+  localparam int LATENCY_LANE_NORMALS = 125;  // the path of normals
   localparam int LATENCY_LANE_FOLDED = 157;
-  localparam int LATENCY_CORE = 143;  // the door
+  localparam int LATENCY_CORE = 139;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums
   localparam int LATENCY_PATCH_LINES = 4;  // two bits of X each
   localparam int LATENCY_RHO = 8;  // the table, c2 d, s, s d, its rounding, rho
   localparam int LATENCY_CHORD = 6;  // the scaled x, the table, the product, the sum, saturation
   localparam int LATENCY_DIRECT_LIGHT = 17;  // rho, products, sums, the lobe
-  localparam int LATENCY_PHONG = 86;  // span, ..., clamp, FIFO
+  localparam int LATENCY_PHONG = 82;  // span, ..., clamp, FIFO
 
-  // products of two 18-bit numbers that a unit computes for each result, in multipliers or in the fabric
+  // products of two 18-bit numbers that a unit computes for each result
   localparam int PRODUCTS_KAPPA = 4;  // for each new increment
   localparam int PRODUCTS_WEIGHT = 3;  // for each span
   localparam int PRODUCTS_NORMALIZE = 11;

@@ -20,13 +20,17 @@ module shade_counters (
 );
   logic [31:0] pixels_q, spans_q, clocks_q, stalls_q, evaluations_q, errors_q;
   shade_pkg::status_t status_q;
+  // a count that is cleared begins with what comes: its upper bits are those of a register with a reset
+  function automatic logic [31:0] counted(input logic clear, input logic [31:0] count, input logic [31:0] more);
+    counted = clear ? more : count + more;
+  endfunction
   always_ff @(posedge clk_i) begin
-    pixels_q      <= (clear_i ? 32'd0 : pixels_q) + 32'(counts_i.pixels);
-    spans_q       <= (clear_i ? 32'd0 : spans_q) + 32'(counts_i.spans);
-    clocks_q      <= (clear_i ? 32'd0 : clocks_q) + 32'(busy_i);
-    stalls_q      <= (clear_i ? 32'd0 : stalls_q) + 32'(counts_i.stalls);
-    evaluations_q <= (clear_i ? 32'd0 : evaluations_q) + 32'(counts_i.evaluations);
-    errors_q      <= (clear_i ? 32'd0 : errors_q) + 32'(counts_i.errors);
+    pixels_q      <= counted(clear_i, pixels_q, 32'(counts_i.pixels));
+    spans_q       <= counted(clear_i, spans_q, 32'(counts_i.spans));
+    clocks_q      <= counted(clear_i, clocks_q, 32'(busy_i));
+    stalls_q      <= counted(clear_i, stalls_q, 32'(counts_i.stalls));
+    evaluations_q <= counted(clear_i, evaluations_q, 32'(counts_i.evaluations));
+    errors_q      <= counted(clear_i, errors_q, 32'(counts_i.errors));
     status_q      <= (clear_i ? '0 : status_q) | events_i;
     if (rst_i) begin
       pixels_q      <= 32'd0;

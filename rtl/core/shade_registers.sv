@@ -105,7 +105,7 @@ module shade_registers #(
   logic [3:0][7:0] data, word, merged;
   logic mapped_q, setting_q, clears_q;
   assign data = data_q;
-  assign word = draw_q | own_q;  // one of them is 0
+  assign word = draw_q;  // 0 where it is none of them
   for (genvar i = 0; i < 4; i++) begin : g_byte
     assign merged[i] = write_q && strobe_q[i] ? data[i] : word[i];
   end
@@ -120,7 +120,7 @@ module shade_registers #(
       draw_q    <= shade_pkg::draw_word(draw_o, select_q);
     end
     if (merge_q) begin
-      word_q   <= merged;
+      word_q   <= merged | own_q;
       clears_q <= select_q.control && ((merged ^ word) & ~absent) == 32'd1 << CLEAR;
     end
   end

@@ -41,7 +41,7 @@ module shade_gain #(
   localparam int E_W = shade_pkg::FACTOR_EXP_W + 1;
   localparam int SHIFT_W = 6;
 
-  logic [V_W-1:0] v, coarse_q, fine_q;  // v: 3 clocks ahead of s_o
+  logic [V_W-1:0] v;  // 3 clocks ahead of s_o
   logic [SHIFT_W-1:0] shift;  // of v, with one bit left for the rounding
   logic [3:0] shift_q;
 
@@ -122,15 +122,26 @@ module shade_gain #(
   end
 
   // ---- S1.16 -----------------------------------------------------------------------------------------------------
+  // shifted in steps of 16, 4 and 1; of what the next steps cannot bring into s_o, one bit tells whether there is any
   localparam int FRACTION_W = F + 2;  // of s_o, and the bit of the rounding
-  logic [FRACTION_W-1:0] rounded;
-  logic above;
-  assign rounded = {1'b0, fine_q[F+1:1]} + FRACTION_W'(fine_q[0]);
-  assign above   = |fine_q[V_W-1:FRACTION_W] || rounded[F+1];
+  localparam int FOURS_W = FRACTION_W + 3;
+  localparam int COARSE_W = FOURS_W + 12;
+  logic [V_W-1:0] sixteens;
+  logic [COARSE_W-1:0] coarse_q, fours;
+  logic [FOURS_W-1:0] ones;
+  logic [FRACTION_W-1:0] fine_q, rounded;
+  logic over_q2, over_q1, above;
+  assign sixteens = v >> {shift[SHIFT_W-1:4], 4'd0};
+  assign fours    = coarse_q >> {shift_q[3:2], 2'd0};
+  assign ones     = FOURS_W'(fours) >> shift_q[1:0];
+  assign rounded  = {1'b0, fine_q[F+1:1]} + FRACTION_W'(fine_q[0]);
+  assign above    = over_q1 || rounded[F+1];
   always_ff @(posedge clk_i) begin
-    coarse_q    <= v >> {shift[SHIFT_W-1:4], 4'd0};
+    coarse_q    <= COARSE_W'(sixteens);
+    over_q2     <= sixteens >> COARSE_W != '0;
     shift_q     <= shift[3:0];
-    fine_q      <= coarse_q >> shift_q;
+    fine_q      <= FRACTION_W'(ones);
+    over_q1     <= over_q2 || fours >> FOURS_W != '0 || ones >> FRACTION_W != '0;
     s_o         <= {1'b0, above ? {(F + 1) {1'b1}} : rounded[F:0]};
     saturated_o <= above;
   end

@@ -8,7 +8,7 @@
 //   flags_o                       see shade_reflectance
 //
 // Settings must not change while nodes are inside. FORM, REFLECT, DIVIDE, rounding, overflow: see shade_reflectance.
-// FOLD = 1: a node a clock. Latency LATENCY_LIGHT = 61 clocks, REFLECT = 0: fewer by LATENCY_REFLECT.
+// FOLD = 1: a node a clock. Latency LATENCY_LIGHT = 57 clocks, REFLECT = 0: fewer by LATENCY_REFLECT.
 // FOLD = 2 .. 8: a node in FOLD clocks, taken when phase_i, which counts 0 .. FOLD - 1, is TAKE; REFLECT and DIVIDE must be
 //           0. Multipliers: 8, 5, 5, 5, 3, 3, 3. Latency LATENCY_LIGHT_FOLDED = 56 clocks, FOLD = 5: 61. The same bits.
 // Source: P1, sections II, III. Example: Blinn, N = L = (0, 0, 1) -> diffuse = 1, specular = gain.

@@ -11,7 +11,7 @@
 //   N, L, V ──────────────────▶ shade_reflectance ◀──────┘
 //
 // Settings must not change while nodes are inside. FORM, REFLECT, DIVIDE, rounding, overflow: see shade_reflectance.
-// Latency LATENCY_LIGHT_LOCAL = 76 clocks. One node a clock. Source: P1, sections II, III.
+// Latency LATENCY_LIGHT_LOCAL = 72 clocks. One node a clock. Source: P1, sections II, III.
 // Example: Blinn, f0 = 1, N = L = V = (0, 0, 1) -> diffuse = 1, specular = gain.
 module shade_light_local #(
   parameter int FORM    = shade_pkg::FORM_REFINED,

@@ -26,8 +26,8 @@
 //
 // lobe_i must stay as it is while values are in flight.
 //
-// FOLD = 1: a value a clock; four 18 x 18 multipliers, and a shade_square_fabric for every squaring behind the second.
-//           Latency LATENCY_LOBE = 31 clocks, 6 fewer for each POWER less than 4.
+// FOLD = 1: a value a clock; 2 + POWER 18 x 18 multipliers. Latency LATENCY_LOBE = 27 clocks, 4 fewer for each POWER less
+//           than 4.
 // FOLD = 2 .. 8: a value in FOLD clocks, taken when phase_i is TAKE: shade_lobe_folded.
 //           Latency LATENCY_LOBE_FOLDED = 33 clocks (FOLD = 5: 38), 5 (6) fewer for each POWER less than 4.
 // The bits are the same; the steps stand in shade_lobe_pkg.
@@ -124,9 +124,7 @@ module shade_lobe #(
 
     // ---- squarings -----------------------------------------------------------------------------------------------
     for (genvar i = 0; i < POWER; i++) begin : g_power
-      localparam bit FABRIC = i > 1;  // at most four DSP blocks
-      localparam int SQUARE = FABRIC ? shade_pkg::LATENCY_SQUARE_FABRIC : MUL;
-      logic squared;
+      logic squared, unused_top;
       logic [Y_W-1:0] y;
       logic [Z_W-1:0] z_q;
       logic [A_W-1:0] a_q, a_late, y_q;
@@ -142,15 +140,8 @@ module shade_lobe #(
         a_q <= shade_lobe_pkg::minuend(y, squared);
         y_q <= shade_lobe_pkg::less(a_late, square);
       end
-      shade_delay #(.WIDTH(A_W), .DEPTH(SQUARE)) u_a (.clk_i, .d_i(a_q), .q_o(a_late));
-      if (FABRIC) begin : g_fabric
-        shade_square_fabric #(.WIDTH(Z_W)) u_square (.clk_i, .x_i(z_q), .y_o(square));
-      end else begin : g_dsp
-        logic top;
-        shade_square #(.WIDTH(Z_W + 1)) u_square (.clk_i, .x_i({1'b0, z_q}), .y_o({top, square}));
-        logic unused_top;
-        assign unused_top = top;
-      end
+      shade_delay #(.WIDTH(A_W), .DEPTH(MUL)) u_a (.clk_i, .d_i(a_q), .q_o(a_late));
+      shade_square #(.WIDTH(Z_W + 1)) u_square (.clk_i, .x_i({1'b0, z_q}), .y_o({unused_top, square}));
     end
     always_ff @(posedge clk_i) lobe_o <= shade_lobe_pkg::result(g_power[POWER-1].y_q);
     logic unused_phase;

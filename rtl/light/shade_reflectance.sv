@@ -25,7 +25,7 @@
 // LOCAL = 0: L, V, H, vh, fresnel are settings; 1: of every node; h_i, vh_i are taken LATENCY_HALFWAY clocks after n_i,
 // l_i, v_i, and fresnel_i LATENCY_FRESNEL clocks after these. Settings must not change while nodes are inside.
 //
-// FOLD = 1: a node a clock. Latency LATENCY_LIGHT = 61 clocks, REFLECT = 0: fewer by LATENCY_REFLECT, LOCAL = 1:
+// FOLD = 1: a node a clock. Latency LATENCY_LIGHT = 57 clocks, REFLECT = 0: fewer by LATENCY_REFLECT, LOCAL = 1:
 //           LATENCY_LIGHT_LOCAL.
 // FOLD = 2 .. 8: a node in FOLD clocks, taken when phase_i, which counts 0 .. FOLD - 1, is TAKE; multipliers are shared, and
 //           REFLECT, DIVIDE, LOCAL must be 0. Latency LATENCY_LIGHT_FOLDED = 56 clocks, FOLD = 5: 61. The same bits.

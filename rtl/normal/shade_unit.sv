@@ -78,7 +78,7 @@ module shade_unit #(
     logic [V_W-1:0] v_q16;
     logic bypass_q14;
     logic [F-1:0] s_q16;
-    shade_ring #(.WIDTH(1 + V_W), .DEPTH(shade_pkg::LATENCY_MUL + 2 + shade_pkg::LATENCY_RSQRT)) u_v (
+    shade_ring #(.WIDTH(1 + V_W), .DEPTH(shade_pkg::LATENCY_MUL + 2 + shade_pkg::LATENCY_RSQRT), .BLOCK(1)) u_v (
       .clk_i, .rst_i, .d_i({bypass_i, v_i}), .q_o({bypass_q14, v})
     );
     always_ff @(posedge clk_i) begin

@@ -83,7 +83,7 @@ module shade_poly_line #(
     assign at[c] = direct && node[1] ? high : low;
   end
   shade_valid #(.DEPTH(START)) u_valid (.clk_i, .rst_i, .valid_i(issue), .valid_o(valid));
-  shade_ring #(.WIDTH(2 + shade_pkg::TAG_W + 2 * W), .DEPTH(START)) u_beside (
+  shade_ring #(.WIDTH(2 + shade_pkg::TAG_W + 2 * W), .DEPTH(START), .BLOCK(1)) u_beside (
     .clk_i, .rst_i, .d_i({first || direct, last && !record.head.more, record.head.tag, at}),
     .q_o({begins, ends, tag, at_specular, at_diffuse})
   );

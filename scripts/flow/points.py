@@ -20,7 +20,7 @@ def grid(**choices: list[int]) -> list[Point]:
 
 POINTS: dict[str, list[Point]] = {
     "shade_delay": [{"DEPTH": 0}, {"DEPTH": 17}, {"WIDTH": 1, "DEPTH": 1}, {"WIDTH": 33, "DEPTH": 3}],
-    "shade_ring": [{"DEPTH": 0}, {"DEPTH": 17}, {"WIDTH": 2, "DEPTH": 51}, {"WIDTH": 18, "DEPTH": 8}],
+    "shade_ring": [{"DEPTH": 0}, {"DEPTH": 17}, {"WIDTH": 2, "DEPTH": 51}, {"WIDTH": 18, "DEPTH": 8}, {"BLOCK": 1}],
     "shade_valid": [{"DEPTH": 2}],
     "shade_round": [
         {"WIDTH": 2, "DROP": 1},
@@ -32,7 +32,6 @@ POINTS: dict[str, list[Point]] = {
     "shade_limit": [{"WIDTH": 19}, {"WIDTH": 3, "OUT_W": 2}],
     "shade_clamp": [{"WIDTH": 20, "F": 18}, {"WIDTH": 3, "F": 1}],
     "shade_square": [{"WIDTH": 2}, {"WIDTH": 11}],
-    "shade_square_fabric": [{"WIDTH": 3}, {"WIDTH": 10}, {"WIDTH": 18}],
     "shade_weigh": [{"K0": 0, "KX": 0, "KY": 65535, "KZ": 43691}, {"WIDTH": 6, "F": 4, "OUT_F": 2, "OUT_W": 12}],
     "shade_third": grid(WIDTH=[4, 28], FORM=[0, 1]),
     "shade_coef_a": grid(WIDTH=[3, 18, 20], NODES=[0, 1], FORM=[0, 1]),
@@ -105,7 +104,7 @@ POINTS: dict[str, list[Point]] = {
 
 REFUSED: dict[str, list[Point]] = {
     "shade_delay": [{"WIDTH": 0}],
-    "shade_ring": [{"WIDTH": 0}, {"DEPTH": -1}],
+    "shade_ring": [{"WIDTH": 0}, {"DEPTH": -1}, {"DEPTH": 2, "BLOCK": 1}],
     "shade_valid": [{"DEPTH": 0}],
     "shade_round": [{"WIDTH": 4, "DROP": 4}, {"DROP": 0}],
     "shade_saturate": [{"WIDTH": 8, "OUT_W": 7}],
@@ -113,7 +112,6 @@ REFUSED: dict[str, list[Point]] = {
     "shade_limit": [{"OUT_W": 1}, {"OUT_W": 21}],
     "shade_clamp": [{"WIDTH": 17}, {"F": 0}],
     "shade_square": [{"WIDTH": 1}, {"WIDTH": 19}],
-    "shade_square_fabric": [{"WIDTH": 2}, {"WIDTH": 19}],
     "shade_weigh": [{"WIDTH": 1}, {"OUT_F": 34}, {"KX": 87381, "KY": 87381}, {"KX": 1 << 19}, {"KZ": -(1 << 19)}],
     "shade_third": [{"WIDTH": 3}, {"WIDTH": 29}, {"FORM": 2}],
     "shade_coef_a": [{"WIDTH": 2}, {"WIDTH": 21}, {"NODES": 2}, {"FORM": 2}],

@@ -52,12 +52,6 @@ def _steps(form: str) -> Iterator[Case]:
             "shade_square", form, {"WIDTH": width}, square, square, square, None, every({"x_i": signed_range(width)}),
             k.LATENCY_MUL, bound=0, unit_f=0,
         )  # fmt: skip
-    for width in (17, 6, 3, 10, 18):
-        square = lambda i: {"y_o": fixed.square(i["x_i"])}  # noqa: E731
-        yield Case(
-            "shade_square_fabric", form, {"WIDTH": width}, square, square, square, None,
-            every({"x_i": (0, (1 << width) - 1)}), (width - 2).bit_length(), bound=0, unit_f=0,
-        )  # fmt: skip
     for a_w, b_w, stages in (
         (30, 18, 2), (18, 18, 2), (30, 18, 3), (35, 18, 0), (18, 18, 0), (10, 10, 2), (20, 2, 2), (19, 2, 2)
     ):  # fmt: skip
@@ -87,14 +81,16 @@ def _delay(form: str) -> Iterator[Case]:
         return
     delays = [(20, 0), (12, 3), (16, 41), (33, 5), (1, 0), (8, 47)]
     rings = [(12, 3), (16, 41), (2, 51), (18, 16), (6, 8), (8, 17), (5, 47), (33, 5), (21, 32)]
-    for module, width, depth in (
-        *(("shade_delay", *size) for size in delays),
-        *(("shade_ring", *size) for size in rings),
+    blocks = [(20, 3), (56, 13), (9, 64)]
+    for module, width, depth, more in (
+        *(("shade_delay", *size, {}) for size in delays),
+        *(("shade_ring", *size, {}) for size in rings),
+        *(("shade_ring", *size, {"BLOCK": 1}) for size in blocks),
     ):
         same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
         word = {"d_i": (0, (1 << width) - 1)}
         yield Case(
-            module, form, {"WIDTH": width, "DEPTH": depth}, same, same, same,
+            module, form, {"WIDTH": width, "DEPTH": depth, **more}, same, same, same,
             mixed(word) if width > 20 else None, every(word) if width <= 20 else None, depth, bound=0, unit_f=0,
         )  # fmt: skip
 

@@ -131,7 +131,7 @@ def _highlights(form: str, stages: int) -> dict[tuple[int, ...], Highlight]:
 def lobe_latency(stages: int, fold: int) -> int:
     """Clocks of ``shade_lobe``."""
     if fold == 1:
-        return k.LATENCY_LOBE - (4 - stages) * (k.LATENCY_SQUARE_FABRIC + 2)
+        return k.LATENCY_LOBE - (4 - stages) * k.LATENCY_LOBE_POWER
     turn = k.LATENCY_MUL + 3 + (fold == 5)
     return 3 + (2 + stages) * turn - (fold == 5)
 

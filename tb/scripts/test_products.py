@@ -14,17 +14,16 @@ LIGHT = k.PRODUCTS_LIGHT, k.PRODUCTS_REFLECT, k.PRODUCTS_DIVIDE
 
 
 def netlist(module: str, point: Point, folder: Path) -> int:
-    """Multiplications of an elaborated module, constants and doubles removed, and squares in the fabric."""
+    """Multiplications of an elaborated module, constants and doubles removed."""
     files = " ".join(map(str, reached(module)))
     chosen = "".join(f" -chparam {name} {value}" for name, value in point.items())
     script = f"""
         read_verilog -sv {files}
         hierarchy -check -top {module}{chosen}
         proc
-        setattr -mod -set keep_hierarchy 1 *shade_square_fabric*
         flatten
         opt -full
-        tee -q -o count.txt select -count t:$mul t:*shade_square_fabric*
+        tee -q -o count.txt select -count t:$mul
     """
     tools.yosys(script, folder)
     return int((folder / "count.txt").read_text().split()[0])

@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -125,6 +126,7 @@ def include(root: Path) -> list[str]:
     return [f"-I{root / 'include'}", f"-I{root / 'include' / 'vltstd'}"]
 
 
+RUNTIME = ["_vpi", "", "_cov", "_vcd_c", "_threads"]  # what takes longest first
 # What the C++ of every model begins with; compiled once, it is three quarters of a small model's compilation.
 PRECOMPILED = """\
 #include <cstdint>
@@ -135,18 +137,17 @@ PRECOMPILED = """\
 """
 
 
-def runtime(waves: bool) -> Path:
+def runtime() -> Path:
     """Verilator's own C++, compiled: a folder of object files, and model.h with its precompiled form."""
     verilator = tools.verilator()
-    path = CACHE / f"runtime-{key_of(str(verilator.root), verilator.version, CXX_FLAGS, PRECOMPILED, waves)}"
+    path = CACHE / f"runtime-{key_of(str(verilator.root), verilator.version, CXX_FLAGS, PRECOMPILED)}"
     with once(path) as scratch:
         if scratch:
-            names = ["verilated", "verilated_threads", "verilated_vpi", "verilated_cov"]
-            names += ["verilated_vcd_c"] if waves else []
-            units = [verilator.root / "include" / f"{name}.cpp" for name in names]
-            run(["g++", *CXX_FLAGS, *include(verilator.root), "-c", *units], scratch)
             (scratch / "model.h").write_text(PRECOMPILED)
-            run(["g++", *CXX_FLAGS, *include(verilator.root), "-x", "c++-header", "model.h"], scratch)
+            command = ["g++", *CXX_FLAGS, *include(verilator.root)]
+            units = [["-c", verilator.root / "include" / f"verilated{part}.cpp"] for part in RUNTIME]
+            with ThreadPoolExecutor(os.cpu_count()) as pool:  # every other compilation waits for it
+                list(pool.map(lambda unit: run([*command, *unit], scratch), [*units, ["-x", "c++-header", "model.h"]]))
     return path
 
 
@@ -272,7 +273,7 @@ def build(
             macros = f'#define WAVES {int(waves)}\n#define COVERAGE {int(coverage)}\n#define MODEL_KEY "{path.name}"\n'
             mutant = f"void set_mutant(DUT& t, uint64_t v) {{ (void)t; (void)v; {chosen} }}\n"
             (scratch / "all.cpp").write_text(f"{macros}{units}{glue(found)}{mutant}{harness}")
-            common = runtime(waves)
+            common = runtime()
             run(
                 ["g++", *CXX_FLAGS, *include(verilator.root), "-include", common / "model.h", "-shared",
                  "-o", "model.so", "all.cpp", *sorted(common.glob("*.o")), "-pthread"],

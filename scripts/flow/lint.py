@@ -65,12 +65,13 @@ class Item:
     slow: bool = False  # as a test only in make test-all
 
 
-def items() -> Iterator[Item]:
-    """Every check of the repository, the short ones first."""
+def items(*, synth: bool = True) -> Iterator[Item]:
+    """Every check of the repository, the short ones first; those of Yosys with synthesis, or without."""
     yield Item("file list", file_list)
     yield Item("ruff check", partial(_ruff, "check", "--quiet", "--output-format=concise"))
     yield Item("ruff format", partial(_ruff, "format", "--check", "--quiet", "--output-format=concise"))
     yield Item("verible", partial(verible, sources()))
+    yield Item("verilator rtl/shade.f", partial(verilator, "shade_core", {}, "-F", RTL / "shade.f"))
     yield Item("ratchets", ratchets)
     yield Item("licence", licence)
     yield Item("documents", documents.check)
@@ -84,7 +85,7 @@ def items() -> Iterator[Item]:
         for number, point in enumerate(points(module)):
             yield Item(f"verilator {label(module, point)}", partial(verilator, module, point), number > 0)
             slow = number > 0 or module in held  # Yosys reads the tops, and with them what they hold
-            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point), slow)
+            yield Item(f"yosys {label(module, point)}", partial(yosys, module, point, synth), slow)
 
 
 def parts() -> set[str]:
@@ -159,9 +160,9 @@ def tested() -> set[str]:
     return {case.module for case in cases() if not case.own_bench} | {stream.module for stream in streams()}
 
 
-def verilator(module: str, point: Point) -> list[str]:
-    """Warnings and errors of Verilator for one module as the top."""
-    done = _verilate(module, point)
+def verilator(module: str, point: Point, *files: str | Path) -> list[str]:
+    """Warnings and errors of Verilator for one module as the top; by default from no more files than it reaches."""
+    done = _verilate(module, point, *files)
     return [line for line in done.stderr.splitlines() if line.startswith("%")] or ["failed"] * (done.returncode != 0)
 
 
@@ -172,8 +173,8 @@ def refused(module: str, point: Point) -> list[str]:
     return [] if done.returncode and told else [f"{label(module, point)}: accepted, or refused without words"]
 
 
-def yosys(module: str, point: Point) -> list[str]:
-    """Faults that Yosys finds with either reader, or in the word-level netlist."""
+def yosys(module: str, point: Point, synth: bool = True) -> list[str]:
+    """Faults that Yosys finds with either reader, and in what it makes of the RTL: word-level cells, or flat logic."""
     folder = BUILD / "lint" / re.sub(r"\W+", "_", label(module, point))
     shutil.rmtree(folder, ignore_errors=True)
     files = " ".join(os.path.relpath(path, folder) for path in reached(module))
@@ -189,8 +190,7 @@ def yosys(module: str, point: Point) -> list[str]:
         read_verilog -sv {files}
         hierarchy -check -top {module}{chosen}
         {rules}
-        synth -flatten -run begin:fine
-        opt
+        {"synth -flatten -run begin:fine; opt" if synth else "flatten"}
         check -assert
         design -reset
         read_slang -Wwidth-trunc --keep-hierarchy --top {module}{given} {files}
@@ -257,11 +257,18 @@ def counted(texts: list[str]) -> dict[str, float]:
     return dict(zip(RATCHETS, numbers, strict=True))
 
 
-def _verilate(module: str, point: Point) -> subprocess.CompletedProcess[str]:
-    """In a folder of its own, to which no path of the list is relative."""
+def _verilate(module: str, point: Point, *files: str | Path) -> subprocess.CompletedProcess[str]:
+    """In a folder of its own, to which no path of a list is relative."""
     options = [f"-G{name}={value}" for name, value in point.items()]
-    files = ["-F", RTL / "shade.f", *(path for name, path in comparisons().items() if name == module)]
-    command = [installed().program, "--lint-only", "-Wall", "--top-module", module, *options, *files]
+    command = [
+        installed().program,
+        "--lint-only",
+        "-Wall",
+        "--top-module",
+        module,
+        *options,
+        *(files or reached(module)),
+    ]
     (BUILD / "lint").mkdir(parents=True, exist_ok=True)
     return subprocess.run(command, cwd=BUILD / "lint", env=environment(), capture_output=True, text=True)
 

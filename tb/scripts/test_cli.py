@@ -919,7 +919,7 @@ STRANGE = "with space \u00fc"
 def test_process_in_another_cache(tmp_path: Path) -> None:
     """A folder with a space and a letter beyond ASCII; once it is filled nothing is written there, nor a lock."""
     cache, out = tmp_path / STRANGE, tmp_path / "out"
-    common = verilate.runtime(False)  # of Verilator itself, as it is: its compilation takes longest
+    common = verilate.runtime()  # of Verilator itself, as it is: its compilation takes longest
     shutil.copytree(common, cache / common.name)
     point = 'from polyshade import sim; print(sim.load("shade_third").run(x_i=[3, 6]).y_o.tolist())'
     for _ in range(2):

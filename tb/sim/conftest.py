@@ -13,8 +13,8 @@ from polyshade.sim import model, sources, verilate
 @pytest.fixture
 def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty cache of models, in which Verilator's own part is there already."""
-    runtimes = {waves: verilate.runtime(waves) for waves in (False,)}
-    monkeypatch.setattr(verilate, "runtime", lambda waves: runtimes[waves])
+    runtime = verilate.runtime()
+    monkeypatch.setattr(verilate, "runtime", lambda: runtime)
     monkeypatch.setattr(verilate, "CACHE", tmp_path / "cache")
     monkeypatch.setattr(model, "_loaded", {})
     return tmp_path / "cache"

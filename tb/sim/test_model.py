@@ -702,8 +702,8 @@ from pathlib import Path
 from polyshade.sim import model, verilate
 
 runs, run = [], verilate.run
-runtime = verilate.runtime(False)
-verilate.runtime = lambda waves: runtime
+runtime = verilate.runtime()
+verilate.runtime = lambda: runtime
 verilate.CACHE = Path(sys.argv[1])
 verilate.run = lambda *given: runs.append(given) or run(*given)
 third = model.load("shade_third", WIDTH=5)

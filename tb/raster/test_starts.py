@@ -14,7 +14,7 @@ from polyshade.golden.types import BEGUN, whole
 from tb.bench import PRESSURE, Bench, Sink, Source, checked
 from tb.raster.streams import fields, word
 from tb.raster.vectors import mixture
-from tb.runner import points, simulate
+from tb.runner import FULL, points, simulate
 
 AXES = ("normal.x", "normal.y", "normal.z", "depth")
 
@@ -84,7 +84,7 @@ def cut(rng: np.random.Generator, s: golden.Scanned) -> golden.Scanned:
 @checked(**PRESSURE, pieces=[0, 1])
 async def values(bench: Bench, gap: float, stall: float, pieces: int) -> None:
     """Place, start and triangle of every run, whole or in pieces; those that are none pass."""
-    s = golden.scan(mixture(bench.rng, 25, 50), golden.View(50, 50, k.CULL_NONE))
+    s = golden.scan(mixture(bench.rng, 25 if FULL else 15, 50), golden.View(50, 50, k.CULL_NONE))
     if pieces:
         s = cut(bench.rng, s)
     triangles = Source(bench, "surface_valid_i", "surface_ready_o", ["surface_i"])

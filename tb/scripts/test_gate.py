@@ -16,7 +16,9 @@ def small() -> Case:
     return next(case for case in cases() if case.module == "shade_mul" and case.all_vectors)
 
 
-@pytest.mark.parametrize(("family", "block"), [("ecp5", "MULT18X18D"), ("ice40", "SB_MAC16")])
+@pytest.mark.parametrize(("family", "block"), [
+    ("ecp5", "MULT18X18D"), pytest.param("ice40", "SB_MAC16", marks=pytest.mark.full),
+])  # fmt: skip
 def test_a_netlist_is_compared(tmp_path, monkeypatch, family: str, block: str) -> None:
     monkeypatch.setattr(gate, "WORK", tmp_path)
     found = gate.check(small(), family, 5000)
@@ -32,6 +34,7 @@ def test_a_netlist_is_compared(tmp_path, monkeypatch, family: str, block: str) -
     assert gate.check(small(), family, 5000)["mismatches"] > 0
 
 
+@pytest.mark.full
 @pytest.mark.skipif(not shutil.which("iverilog"), reason="no Icarus Verilog on this machine")
 def test_four_states(tmp_path) -> None:
     """A core without a reset of its own for data gives no unknown bit; one without the reset of a FIFO does."""

@@ -17,7 +17,7 @@ def work(tmp_path, monkeypatch) -> None:
     (tmp_path / "work").mkdir()
 
 
-@pytest.mark.parametrize("module", ["shade_weigh", "shade_gain"])
+@pytest.mark.parametrize("module", ["shade_weigh", pytest.param("shade_gain", marks=pytest.mark.full)])
 def test_sample(module: str) -> None:
     """Twelve mutants by the module's vectors alone: what lives on is equivalent."""
     row = mutants.judge(TARGETS[module], 12, 5, bench=False)

@@ -41,24 +41,26 @@ def netlist(module: str, point: Point, folder: Path) -> int:
         ("shade_poly_span", {"EVALUATOR": k.EVALUATOR_HORNER}, k.CHANNELS * k.PRODUCTS_HORNER),
         ("shade_poly_span", {"EVALUATOR": k.EVALUATOR_FDIFF}, 0),
         ("shade_light", {"REFLECT": 0, "DIVIDE": 0}, LIGHT[0]),
-        ("shade_light", {"REFLECT": 1, "DIVIDE": 0}, LIGHT[0] + LIGHT[1]),
-        ("shade_light", {"REFLECT": 0, "DIVIDE": 1}, LIGHT[0] + LIGHT[2]),
         ("shade_light", {"REFLECT": 1, "DIVIDE": 1}, sum(LIGHT)),
-        ("shade_phong", {}, phong_products(1)),
         ("shade_phong", {"REFLECT": 0, "DIVIDE": 0}, phong_products(1, reflect=0, divide=0)),
-        (
-            "shade_lane",
-            {"PATH_NORMALS": 0, "EVALUATOR": k.EVALUATOR_HORNER},
-            products([[0, 0, 0]], Drawn([[0, 0]], [0], [0], 1), evaluator=k.EVALUATOR_HORNER),
-        ),
         (
             "shade_lane",
             {"PATH_NORMALS": 0, "REFLECT": 0, "DIVIDE": 0},
             products([[0, 0, 0]], Drawn([[0, 0]], [0], [0], 1), reflect=0, divide=0),
         ),
+        *(pytest.param(*case, marks=pytest.mark.full) for case in (
+            ("shade_light", {"REFLECT": 1, "DIVIDE": 0}, LIGHT[0] + LIGHT[1]),
+            ("shade_light", {"REFLECT": 0, "DIVIDE": 1}, LIGHT[0] + LIGHT[2]),
+            ("shade_phong", {}, phong_products(1)),
+            (
+                "shade_lane",
+                {"PATH_NORMALS": 0, "EVALUATOR": k.EVALUATOR_HORNER},
+                products([[0, 0, 0]], Drawn([[0, 0]], [0], [0], 1), evaluator=k.EVALUATOR_HORNER),
+            ),
+        )),
     ],
     ids=lambda value: label("", value) if isinstance(value, dict) else str(value),
-)
+)  # fmt: skip
 def test_products(module: str, point: Point, counted: int, tmp_path: Path) -> None:
     """Of a whole module as the sum of its parts: those of a span of one pixel and one node."""
     assert netlist(module, point, tmp_path) == counted

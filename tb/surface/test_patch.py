@@ -37,7 +37,7 @@ def scene(mesh: str, size: int) -> Triangles:
         ("sphere", 256, 32, 1, {}),
         ("head", 128, 512, 2, {"in_gap": 0.3, "out_stall": 0.3}),
         ("head", 256, 32, 4, {"out_stall": 0.6}),
-        ("sphere", 256, 8, 8, {"in_gap": 0.7}),
+        pytest.param("sphere", 256, 8, 8, {"in_gap": 0.7}, marks=pytest.mark.full),
     ],
 )
 def test_frames(mesh: str, size: int, shininess: float, lanes: int, pauses: dict[str, float]) -> None:
@@ -54,7 +54,7 @@ def test_triangles_of_all_kinds(lanes: int) -> None:
         assert (drawn.mismatches, drawn.first_mismatch, drawn.counter_mismatches) == (0, {}, {})
 
 
-@pytest.mark.parametrize(("lights", "lanes"), [(2, 1), (4, 4)])
+@pytest.mark.parametrize(("lights", "lanes"), [pytest.param(2, 1, marks=pytest.mark.full), (4, 4)])
 def test_several_lights(lights: int, lanes: int) -> None:
     """Their sum, on the same clocks a pixel as one light."""
     directions = np.array([LIGHT, (-0.8, 0.2, 0.4), (0.1, -0.7, 0.3), (0.5, 0.5, -0.2)])[:lights]

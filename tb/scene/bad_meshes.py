@@ -249,262 +249,152 @@ def _fits(faces: Faces) -> bool:
 
 
 def _obj() -> Iterator[tuple[str, bytes]]:
-    body = obj().decode()
-    bad = {
-        "only_vertices": "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
-        "only_faces": "f 1 2 3\n",
-        "only_comments": "# a mesh\n# of nothing\n",
-        "only_lines": "v 0 0 0\nv 1 0 0\nl 1 2\n",
-        "only_points": "v 0 0 0\nv 1 0 0\np 1 2\n",
-        "face_of_two": "v 0 0 0\nv 1 0 0\nf 1 2\nf\n",
-        "continued": body + "f 1 \\\n2 x",
-        "index_zero": body + "f 0 1 2\n",
-        "before_the_first": body + "f -5 -1 -2\n",
-        "relative_too_early": "f -3 -2 -1\n" + body,
-        "normal_missing": body + "f 1//1 2//1 3//1\n",
-        "normal_word": body + "vn 0 0 up\nf 1//1 2//1 3//1\n",
-        "normal_short": body + "vn 0 0\n",
-        "normal_relative": body + "vn 0 0 1\nf 1//-2 2//-1 3//-1\n",
-        "corner_of_four": body + "f 1/1/1/1 2/1/1/1 3/1/1/1\n",
-        "corner_without_point": body + "f /1 /2 /3\n",
-        "corner_minus": body + "f - 1 2\n",
-        "unused_nan": body + "v nan nan nan\n",
-        "unused_word": body + "v a b c\n",
-        "vertex_alone": body + "v\n",
-        "binary_tail": body + "f 1 2 \0\n",
-    }
-    for name, text in bad.items():
-        yield f"obj_{name}.obj", text.encode()
+    body, normals = obj().decode(), "1//{} 2//{} 3//{}\n"
+    bad = [
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "f 1 2 3\n", "# a mesh\n# of nothing\n",  # not a face
+        "v 0 0 0\nv 1 0 0\nl 1 2\n", "v 0 0 0\nv 1 0 0\np 1 2\n", "v 0 0 0\nv 1 0 0\nf 1 2\nf\n",
+        body + "f 1 \\\n2 x", body + "f 0 1 2\n", body + "f -5 -1 -2\n", "f -3 -2 -1\n" + body,  # indices
+        body + "f " + normals.format(1, 1, 1), body + "vn 0 0 up\nf " + normals.format(1, 1, 1), body + "vn 0 0\n",
+        body + "vn 0 0 1\nf " + normals.format(-2, -1, -1),
+        body + "f 1/1/1/1 2/1/1/1 3/1/1/1\n", body + "f /1 /2 /3\n", body + "f - 1 2\n", body + "f 1 2 \0\n",
+        body + "v nan nan nan\n", body + "v a b c\n", body + "v\n",
+    ]  # fmt: skip
+    for number, text in enumerate(bad):
+        yield f"obj_{number}.obj", text.encode()
     yield "obj_utf16.obj", body.encode("utf-16")
 
 
 def _off() -> Iterator[tuple[str, bytes]]:
-    for name, counts in {
-        "claims_vertices": "400 4 0",
-        "claims_faces": "4 400 0",
-        "claims_all": "99999999999999 99999999999999 0",
-        "negative": "-4 4 0",
-        "negative_faces": "4 -4 0",
-        "one_count": "4",
-        "words": "four four zero",
-        "floats": "4.0 4.0 0.0",
-        "no_counts": "",
-        "too_few_vertices": "3 5 0",
-        "no_vertices": "0 4 0",
-        "no_faces_claimed": "4 0 0",
-    }.items():
-        yield f"off_{name}.off", off(counts=counts)
+    for number, counts in enumerate([
+        "400 4 0", "4 400 0", "99999999999999 99999999999999 0", "-4 4 0", "4 -4 0", "4", "four four zero",
+        "4.0 4.0 0.0", "", "3 5 0", "0 4 0", "4 0 0",
+    ]):  # fmt: skip
+        yield f"off_counts_{number}.off", off(counts=counts)
     body = off().decode()
-    for name, text in {
-        "no_magic": body.removeprefix("OFF\n"),
-        "other_magic": "X" + body,
-        "four_dimensions": "4" + body,
-        "at_infinity": "4" + body.replace("0.0\n", "0.0 0\n"),
-        "of_any_dimension": "n" + body.replace("4 4", "3\n4 4"),
-        "binary": body.replace("OFF", "OFF BINARY"),
-        "lower_case": body.replace("OFF", "oof"),
-        "only_magic": "OFF\n",
-        "counts_of_two": body.replace("\n3 ", "\n2 "),
-        "count_negative": body.replace("3 2 0 3", "-3 2 0 3"),
-        "count_too_large": body.replace("3 2 0 3", "9 2 0 3"),
-        "count_word": body.replace("3 2 0 3", "three 2 0 3"),
-        "all_comments": body.replace("\n", "\n#"),
-    }.items():
-        yield f"off_{name}.off", text.encode()
+    bad = [
+        body.removeprefix("OFF\n"), "X" + body, "OFF\n", body.replace("OFF", "OFF BINARY"), body.replace("OFF", "oof"),
+        "4" + body, "4" + body.replace("0.0\n", "0.0 0\n"), "n" + body.replace("4 4", "3\n4 4"),  # of four dimensions
+        *(body.replace("3 2 0 3", row) for row in ("-3 2 0 3", "9 2 0 3", "three 2 0 3")),
+        body.replace("\n3 ", "\n2 "), body.replace("\n", "\n#"),
+    ]  # fmt: skip
+    for number, text in enumerate(bad):
+        yield f"off_{number}.off", text.encode()
 
 
 def _ply() -> Iterator[tuple[str, bytes]]:
-    edits = {
-        "no_magic": ("ply\n", ""),
-        "other_magic": ("ply\n", "plx\n"),
-        "no_format": ("format ascii 1.0\n", ""),
-        "other_format": ("ascii", "utf8"),
-        "other_version": ("ascii 1.0", "ascii 2.0"),
-        "no_end": ("end_header\n", ""),
-        "no_x": ("property float x\n", ""),
-        "renamed_y": ("float y", "float why"),
-        "unknown_type": ("float z", "quad z"),
-        "list_of_x": ("property float x", "property list uchar float x"),
-        "no_vertex": ("element vertex 4", "element corner 4"),
-        "no_face": ("element face 4", "element side 4"),
-        "no_list": ("property list uchar int vertex_indices", "property int vertex_indices"),
-        "other_list": ("vertex_indices", "neighbours"),
-        "property_first": ("element vertex 4\n", ""),
-        "property_word": ("property float z", "propriety float z"),
-        "property_short": ("property float z", "property z"),
-        "list_short": ("list uchar int vertex_indices", "list uchar vertex_indices"),
-        "count_word": ("vertex 4", "vertex four"),
-        "count_negative": ("vertex 4", "vertex -4"),
-        "count_missing": ("vertex 4", "vertex"),
-        "count_float": ("face 4", "face 4.5"),
-        "count_zero": ("vertex 4", "vertex 0"),
-        "count_huge": ("vertex 4", "vertex 99999999999999999999"),
-        "more_vertices": ("vertex 4", "vertex 40"),
-        "more_faces": ("face 4", "face 5"),
-        "fewer_vertices": ("vertex 4", "vertex 3"),
-        "twice": ("element face 4", "element vertex 4"),
-        "list_too_long": ("3 2 0 3", "4 2 0 3"),
-        "list_too_short": ("3 2 0 3", "3 2 0 3 1"),
-        "list_negative": ("3 2 0 3", "-3 2 0 3"),
-        "list_word": ("3 2 0 3", "three 2 0 3"),
-        "blank_row": ("1.0 0.0 0.0", ""),
-        "extra_number": ("1.0 0.0 0.0", "1.0 0.0 0.0 0.0"),
-    }
+    edits = [
+        ("ply\n", ""), ("ply\n", "plx\n"), ("format ascii 1.0\n", ""), ("ascii", "utf8"), ("ascii 1.0", "ascii 2.0"),
+        ("end_header\n", ""), ("property float x\n", ""), ("float y", "float why"), ("float z", "quad z"),
+        ("property float x", "property list uchar float x"), ("element vertex 4", "element corner 4"),
+        ("element face 4", "element side 4"), ("element face 4", "element vertex 4"), ("element vertex 4\n", ""),
+        ("property list uchar int vertex_indices", "property int vertex_indices"), ("vertex_indices", "neighbours"),
+        ("property float z", "propriety float z"), ("property float z", "property z"),
+        ("list uchar int vertex_indices", "list uchar vertex_indices"), ("face 4", "face 4.5"), ("face 4", "face 5"),
+        *(("vertex 4", "vertex " + count) for count in ("four", "-4", "0", "99999999999999999999", "40", "3")),
+        ("vertex 4", "vertex"), ("1.0 0.0 0.0", ""), ("1.0 0.0 0.0", "1.0 0.0 0.0 0.0"),
+        *(("3 2 0 3", row) for row in ("4 2 0 3", "3 2 0 3 1", "-3 2 0 3", "three 2 0 3")),
+    ]  # fmt: skip
     text = ply().decode()
-    for name, (old, new) in edits.items():
+    for number, (old, new) in enumerate(edits):
         assert old in text
-        yield f"ply_{name}.ply", text.replace(old, new, 1).encode()
+        yield f"ply_edit_{number}.ply", text.replace(old, new, 1).encode()
         head, end, body = binary_ply().partition(b"end_header\n")
         changed = head.replace(old.replace("ascii", "binary_little_endian").encode(), new.encode(), 1)
-        if changed != head and name != "other_version":
-            yield f"ply_binary_{name}.ply", changed + end + body
-    yield "ply_only_magic.ply", b"ply\n"
-    yield "ply_only_header.ply", ply_head("ascii", 4, 4)
-    yield "ply_only_binary_header.ply", ply_head("binary_little_endian", 4, 4)
-    yield "ply_binary_as_text.ply", ply_head("ascii", 4, 4) + binary_ply().partition(b"end_header\n")[2]
-    yield "ply_text_as_binary.ply", ply().replace(b"ascii", b"binary_little_endian")
-    yield "ply_wrong_order.ply", binary_ply().replace(b"little", b"big")
-    yield "ply_mixed_cut.ply", binary_ply(faces=[*FACES, (0, 1, 2, 3)])[:-1]
-    yield "ply_mixed_index.ply", binary_ply(faces=[*FACES, (0, 1, 2, 4)])
-    yield "ply_mixed_negative.ply", binary_ply(faces=[*FACES, (0, 1, 2, -1)])
+        if changed != head and new != "ascii 2.0":
+            yield f"ply_binary_edit_{number}.ply", changed + end + body
     strips = ply().replace(b"element face 4", b"element tristrips 4")
-    yield "ply_strips_index.ply", strips.replace(b"3 2 0 3", b"3 2 0 4")
-    yield "ply_strips_short.ply", strips.replace(b"\n3 ", b"\n4 ")
-    yield "ply_binary_face_of_two.ply", binary_ply(faces=[(0, 1), (1, 2)])
-    yield "ply_binary_face_of_none.ply", binary_ply(faces=[(), ()])
+    bad = [
+        b"ply\n", ply_head("ascii", 4, 4), ply_head("binary_little_endian", 4, 4),
+        ply_head("ascii", 4, 4) + binary_ply().partition(b"end_header\n")[2],
+        ply().replace(b"ascii", b"binary_little_endian"), binary_ply().replace(b"little", b"big"),
+        binary_ply(faces=[*FACES, (0, 1, 2, 3)])[:-1], binary_ply(faces=[*FACES, (0, 1, 2, 4)]),
+        binary_ply(faces=[*FACES, (0, 1, 2, -1)]), binary_ply(faces=[(0, 1), (1, 2)]), binary_ply(faces=[(), ()]),
+        strips.replace(b"3 2 0 3", b"3 2 0 4"), strips.replace(b"\n3 ", b"\n4 "),
+    ]  # fmt: skip
+    for number, content in enumerate(bad):
+        yield f"ply_{number}.ply", content
 
 
 def _stl() -> Iterator[tuple[str, bytes]]:
-    for claimed in (0, 3, 5, 1000, 2**32 - 1):
-        yield f"stl_claims_{claimed}.stl", binary_stl(claimed=claimed)
-    yield "stl_header_only.stl", bytes(84)
-    yield "stl_half_header.stl", bytes(40)
-    yield "stl_solid_binary.stl", b"solid" + binary_stl(claimed=9)[5:]
-    edits = {
-        "no_begin": ("solid s\n", ""),
-        "no_endfacet": ("endfacet\n", ""),
-        "no_endloop": ("endloop\n", ""),
-        "no_outer": ("outer loop\n", ""),
-        "no_facet": ("facet normal 0 0 0\n", ""),
-        "four_vertices": ("endloop\n", "vertex 1 1 1\nendloop\n"),
-        "four_numbers": ("vertex 1.0 0.0 0.0", "vertex 1.0 0.0 0.0 0.0"),
-        "end_first": ("solid s\n", "endsolid s\nsolid s\n"),
-    }
     text = stl().decode()
-    for name, (old, new) in edits.items():
-        yield f"stl_{name}.stl", text.replace(old, new, 1).encode()
-    yield "stl_nothing_inside.stl", b"solid s\nendsolid s\n"
-    yield "stl_solid_only.stl", b"solid s\n"
+    edits = [
+        ("solid s\n", ""), ("endfacet\n", ""), ("endloop\n", ""), ("outer loop\n", ""), ("facet normal 0 0 0\n", ""),
+        ("endloop\n", "vertex 1 1 1\nendloop\n"), ("vertex 1.0 0.0 0.0", "vertex 1.0 0.0 0.0 0.0"),
+        ("solid s\n", "endsolid s\nsolid s\n"),
+    ]  # fmt: skip
+    bad = [
+        *(binary_stl(claimed=claimed) for claimed in (0, 3, 5, 1000, 2**32 - 1)), bytes(84), bytes(40),
+        b"solid" + binary_stl(claimed=9)[5:], *(text.replace(*edit, 1).encode() for edit in edits),
+        b"solid s\nendsolid s\n", b"solid s\n",
+    ]  # fmt: skip
+    for number, content in enumerate(bad):
+        yield f"stl_{number}.stl", content
+
+
+NAN, INFINITE = float("nan"), float("inf")
+GLTF: dict[str, list[Any]] = {
+    # a place in the tree, and what stands there instead; None deletes it
+    "asset": [None, []],
+    "asset version": ["1.0", None],
+    "scene": [7, -1, "0"],
+    "scenes 0 nodes": [[], [3], [-1], [0, 0], ["a"]],
+    "nodes": [[{"mesh": 0, "children": [1]}, {"children": [0]}]],
+    "nodes 0": [{}, 5],
+    "nodes 0 children": [[0]],
+    "nodes 0 matrix": [[1, 0, 0], [NAN] * 16, [0] * 15 + [1], ["a"] * 16],
+    "nodes 0 scale": [[INFINITE, 1, 1], [1e40, 1, 1], [2]],
+    "nodes 0 translation": [["a", 0, 0], [0, 1e35, 0]],
+    "nodes 0 rotation": [[0, 1]],
+    "nodes 0 mesh": [9, -1, False],
+    "nodes 0 skin": [3],
+    "meshes": [None, 3],
+    "meshes 0 primitives": [None, []],
+    "meshes 0 primitives 0 mode": [0, 1, 77],
+    "meshes 0 primitives 0 attributes": [None, {}],
+    "meshes 0 primitives 0 attributes POSITION": [9, -2, 1],
+    "meshes 0 primitives 0 attributes NORMAL": [9, 1],
+    "meshes 0 primitives 0 indices": [9, -1, 0],
+    "accessors": [None],
+    "accessors 0 sparse": [{"count": 1}],
+    "accessors 0 bufferView": [None, 5],  # without one all of its points are 0
+    "accessors 0 type": ["VEC2"],
+    "accessors 0 componentType": [5124, 5130],
+    "accessors 0 count": [5, 2**62, 0, -4, 4.0, 3],
+    "accessors 0 byteOffset": [4, -4],
+    "accessors 1 count": [11, 15],
+    "bufferViews": [None],
+    "bufferViews 0 buffer": [4],
+    "bufferViews 1 byteOffset": [1000],
+    "bufferViews 0 byteOffset": [-8],
+    "bufferViews 0 byteLength": [9999, None],
+    "bufferViews 0 byteStride": [400, -12],
+    "buffers": [None],
+    "buffers 0 byteLength": [None, 100000, 8],
+    "buffers 0 uri": [
+        None, 5, "nowhere.bin", ".", "obj_blank.obj", "http://localhost/mesh.bin",
+        "data:;base64,@@@@", "data:;base64,AAAA",
+    ],
+    "extensionsRequired": [
+        ["KHR_draco_mesh_compression"], ["EXT_meshopt_compression"], ["EXT_mesh_gpu_instancing"], ["NEW_geometry"], [1],
+    ],
+}  # fmt: skip
 
 
 def _gltf() -> Iterator[tuple[str, bytes]]:
-    """Each change is a path into the tree and what stands there instead; None deletes it."""
-    changes: dict[str, tuple[tuple[str | int, ...], Any]] = {
-        "no_asset": (("asset",), None),
-        "asset_list": (("asset",), []),
-        "version_1": (("asset", "version"), "1.0"),
-        "version_none": (("asset", "version"), None),
-        "scene_missing": (("scene",), 7),
-        "scene_negative": (("scene",), -1),
-        "scene_word": (("scene",), "0"),
-        "scene_empty": (("scenes", 0, "nodes"), []),
-        "node_missing": (("scenes", 0, "nodes"), [3]),
-        "node_negative": (("scenes", 0, "nodes"), [-1]),
-        "node_twice": (("scenes", 0, "nodes"), [0, 0]),
-        "node_word": (("scenes", 0, "nodes"), ["a"]),
-        "node_without_mesh": (("nodes", 0), {}),
-        "node_own_child": (("nodes", 0, "children"), [0]),
-        "node_number": (("nodes", 0), 5),
-        "matrix_short": (("nodes", 0, "matrix"), [1, 0, 0]),
-        "matrix_nan": (("nodes", 0, "matrix"), [float("nan")] * 16),
-        "matrix_zero": (("nodes", 0, "matrix"), [0] * 15 + [1]),
-        "matrix_words": (("nodes", 0, "matrix"), ["a"] * 16),
-        "scale_infinite": (("nodes", 0, "scale"), [float("inf"), 1, 1]),
-        "scale_huge": (("nodes", 0, "scale"), [1e40, 1, 1]),
-        "scale_short": (("nodes", 0, "scale"), [2]),
-        "translation_word": (("nodes", 0, "translation"), ["a", 0, 0]),
-        "translation_huge": (("nodes", 0, "translation"), [0, 1e35, 0]),
-        "rotation_short": (("nodes", 0, "rotation"), [0, 1]),
-        "mesh_missing": (("nodes", 0, "mesh"), 9),
-        "mesh_negative": (("nodes", 0, "mesh"), -1),
-        "mesh_bool": (("nodes", 0, "mesh"), False),
-        "no_meshes": (("meshes",), None),
-        "meshes_number": (("meshes",), 3),
-        "no_primitives": (("meshes", 0, "primitives"), None),
-        "empty_primitives": (("meshes", 0, "primitives"), []),
-        "mode_points": (("meshes", 0, "primitives", 0, "mode"), 0),
-        "mode_lines": (("meshes", 0, "primitives", 0, "mode"), 1),
-        "mode_unknown": (("meshes", 0, "primitives", 0, "mode"), 77),
-        "no_attributes": (("meshes", 0, "primitives", 0, "attributes"), None),
-        "no_position": (("meshes", 0, "primitives", 0, "attributes"), {}),
-        "position_missing": (("meshes", 0, "primitives", 0, "attributes", "POSITION"), 9),
-        "position_negative": (("meshes", 0, "primitives", 0, "attributes", "POSITION"), -2),
-        "position_scalar": (("meshes", 0, "primitives", 0, "attributes", "POSITION"), 1),
-        "normal_missing": (("meshes", 0, "primitives", 0, "attributes", "NORMAL"), 9),
-        "normal_scalar": (("meshes", 0, "primitives", 0, "attributes", "NORMAL"), 1),
-        "indices_missing": (("meshes", 0, "primitives", 0, "indices"), 9),
-        "indices_negative": (("meshes", 0, "primitives", 0, "indices"), -1),
-        "indices_vec3": (("meshes", 0, "primitives", 0, "indices"), 0),
-        "no_accessors": (("accessors",), None),
-        "accessor_sparse": (("accessors", 0, "sparse"), {"count": 1}),
-        "accessor_empty": (("accessors", 0, "bufferView"), None),  # all of its points are 0
-        "accessor_view": (("accessors", 0, "bufferView"), 5),
-        "accessor_type": (("accessors", 0, "type"), "VEC2"),
-        "accessor_component": (("accessors", 0, "componentType"), 5124),
-        "accessor_double": (("accessors", 0, "componentType"), 5130),
-        "accessor_count_large": (("accessors", 0, "count"), 5),
-        "accessor_count_huge": (("accessors", 0, "count"), 2**62),
-        "accessor_count_zero": (("accessors", 0, "count"), 0),
-        "accessor_count_negative": (("accessors", 0, "count"), -4),
-        "accessor_count_float": (("accessors", 0, "count"), 4.0),
-        "accessor_count_small": (("accessors", 0, "count"), 3),
-        "accessor_offset": (("accessors", 0, "byteOffset"), 4),
-        "accessor_offset_negative": (("accessors", 0, "byteOffset"), -4),
-        "corners_not_by_three": (("accessors", 1, "count"), 11),
-        "index_count_large": (("accessors", 1, "count"), 15),
-        "view_buffer": (("bufferViews", 0, "buffer"), 4),
-        "view_offset": (("bufferViews", 1, "byteOffset"), 1000),
-        "view_offset_negative": (("bufferViews", 0, "byteOffset"), -8),
-        "view_length": (("bufferViews", 0, "byteLength"), 9999),
-        "view_no_length": (("bufferViews", 0, "byteLength"), None),
-        "view_stride": (("bufferViews", 0, "byteStride"), 400),
-        "view_stride_zero": (("bufferViews", 0, "byteStride"), -12),
-        "no_views": (("bufferViews",), None),
-        "no_buffers": (("buffers",), None),
-        "buffer_no_uri": (("buffers", 0, "uri"), None),
-        "buffer_no_length": (("buffers", 0, "byteLength"), None),
-        "buffer_length_large": (("buffers", 0, "byteLength"), 100000),
-        "buffer_length_small": (("buffers", 0, "byteLength"), 8),
-        "buffer_file_missing": (("buffers", 0, "uri"), "nowhere.bin"),
-        "buffer_file_directory": (("buffers", 0, "uri"), "."),
-        "buffer_file_short": (("buffers", 0, "uri"), "obj_blank.obj"),
-        "buffer_remote": (("buffers", 0, "uri"), "http://localhost/mesh.bin"),
-        "buffer_uri_number": (("buffers", 0, "uri"), 5),
-        "buffer_base64_damaged": (("buffers", 0, "uri"), "data:;base64,@@@@"),
-        "buffer_base64_short": (("buffers", 0, "uri"), "data:;base64,AAAA"),
-        "extension_draco": (("extensionsRequired",), ["KHR_draco_mesh_compression"]),
-        "extension_meshopt": (("extensionsRequired",), ["EXT_meshopt_compression"]),
-        "extension_instances": (("extensionsRequired",), ["EXT_mesh_gpu_instancing"]),
-        "extension_unknown": (("extensionsRequired",), ["NEW_geometry"]),
-        "skin_missing": (("nodes", 0, "skin"), 3),
-        "extension_number": (("extensionsRequired",), [1]),
-    }
-    for name, (path, value) in changes.items():
-        tree = deepcopy(gltf_tree()[0])
-        *parents, last = path
-        place: Any = tree
-        for key in parents:
-            place = place[key]
-        if value is None:
-            del place[last]
-        else:
-            place[last] = value
-        yield f"gltf_{name}.gltf", json.dumps(tree).encode()
-    cycle = gltf_tree()[0]
-    cycle["nodes"] = [{"mesh": 0, "children": [1]}, {"children": [0]}]
-    yield "gltf_node_cycle.gltf", json.dumps(cycle).encode()
-    for name, text in {"null": "null", "number": "1", "list": "[]", "object": "{}", "deep": "[" * 100000}.items():
-        yield f"gltf_json_{name}.gltf", text.encode()
+    for path, values in GLTF.items():
+        for number, value in enumerate(values):
+            tree = deepcopy(gltf_tree()[0])
+            *parents, last = (int(key) if key.isdigit() else key for key in path.split())
+            place: Any = tree
+            for key in parents:
+                place = place[key]
+            if value is None:
+                del place[last]
+            else:
+                place[last] = value
+            yield f"gltf_{path.replace(' ', '_')}_{number}.gltf", json.dumps(tree).encode()
+    for number, text in enumerate(["null", "1", "[]", "{}", "[" * 100000]):
+        yield f"gltf_json_{number}.gltf", text.encode()
 
 
 def _glb() -> Iterator[tuple[str, bytes]]:

@@ -15,19 +15,7 @@ from polyshade.sim.scene import head as head_module
 from polyshade.sim.scene.mesh import Mesh, Reading, load_mesh
 from polyshade.sim.scene.normals import joined, vertex_normals
 
-from tb.scene.bad_meshes import (
-    FACES,
-    POINTS,
-    WRITERS,
-    binary_ply,
-    binary_stl,
-    glb,
-    gltf_tree,
-    obj,
-    off,
-    ply,
-    stl,
-)
+from tb.scene.bad_meshes import FACES, POINTS, WRITERS, binary_ply, binary_stl, glb, gltf_tree, obj, off, ply, stl
 from tb.scene.shapes import CUBE, OUTWARD, SIDES
 
 PLANE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

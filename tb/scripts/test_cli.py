@@ -486,164 +486,123 @@ def refused(outcome: Outcome) -> str:
     return message
 
 
-# options, and what the message must tell
+# values that an option does not take; its name must be told
 NO_NUMBERS = ("nan", "inf", "-inf", "", " ", "one", "1e999", "0x40", "1,5", "\u221e", "\x1b[31m", "--", "1 2")
-BAD_NUMBERS = [
-    *((["--size", value], "--size") for value in (*NO_NUMBERS, "15", "4097", "0", "-0", "-64", "64.0", "1e3")),
-    *((["--size", value], "--size") for value in ("9" * 400, "9" * 5000, "1__0", "\u00bd", str(1 << 64))),
-    *((["--subdivide", value], "--subdivide") for value in ("-1", "5", "0.5", "nan", "99999999999999999999")),
-    *((["--degree", value], "--degree") for value in ("0", "4", "-1", "2.5", "cubic")),
-    *((["--shininess", value], "--shininess") for value in (*NO_NUMBERS, "0", "0.99", "-0.0", "1024.1", "1e308")),
-    *((["--roughness", value], "--roughness") for value in (*NO_NUMBERS, "0", "0.049", "0.71", "-0.3")),
-    *((["--f0", value], "--f0") for value in (*NO_NUMBERS, "-0.01", "1.01", "-1e-300")),
-    *((["--exposure", value], "--exposure") for value in (*NO_NUMBERS, "0", "-1", "9e-7", "1.1e6", "Auto")),
-    *((["--lanes", value], "--lanes") for value in ("0", "3", "5", "8", "-1", "1.0", "two", "")),
-    *(
-        ([option, value], option)
-        for option in ("--ambient", "--diffuse", "--specular")
-        for value in ("nan", "inf", "-0.1", "1.1", "", "much")
+NO_SHARES = ("nan", "inf", "-0.1", "1.1", "", "much")
+BAD_VALUES = {
+    "--size": (
+        *NO_NUMBERS, "15", "4097", "0", "-0", "-64", "64.0", "1e3", "1__0", "\u00bd", "9" * 400, "9" * 5000,
+        str(1 << 64),
     ),
-    *(
-        ([option, *value.split()], option)
-        for option in ("--colour", "--highlight")
-        for value in ("0 0 1.1", "-0.1 0 0", "nan 0 0", "0 inf 0", "red", "1 1", "#fff 0 0")
+    "--subdivide": ("-1", "5", "0.5", "nan", "99999999999999999999"),
+    "--degree": ("0", "4", "-1", "2.5", "cubic"),
+    "--shininess": (*NO_NUMBERS, "0", "0.99", "-0.0", "1024.1", "1e308"),
+    "--roughness": (*NO_NUMBERS, "0", "0.049", "0.71", "-0.3"),
+    "--f0": (*NO_NUMBERS, "-0.01", "1.01", "-1e-300"),
+    "--exposure": (*NO_NUMBERS, "0", "-1", "9e-7", "1.1e6", "Auto"),
+    "--lanes": ("0", "3", "5", "8", "-1", "1.0", "two", ""),
+    **dict.fromkeys(("--ambient", "--diffuse", "--specular"), NO_SHARES),
+    "--yaw": ("nan", "361", "-1e9", "left", ""),
+    "--pitch": ("nan", "90.001", "-inf", "up", ""),
+    "--zoom": ("nan", "0", "-0.0", "0.049", "50.1", "1e-320", "-1", ""),
+    "--field-of-view": ("nan", "0", "0.99", "120.1", "180", "wide"),
+    "--criterion": ("nan", "-0.001", "1.01", "inf", "", "P2"),
+    "--threshold": ("nan", "-0.1", "1.01", "inf", "", "high"),
+    "--frames": ("0", "-1", "3601", "2.5", "nan", "", "all"),
+    "--crease": ("-1", "180.1", "nan", "", "sharp"),
+    "--form": ("", "Refined", "refined ", "papers", "1", "\x1b[2J", "\u0440aper"),
+    "--evaluator": ("", "Horner", "newton", "0", "horner\n"),
+    "--model": ("", "Blinn", "gouraud", "blinn,phong", "None", "nan"),
+    "--energy": ("", "None", "ward", "blinn_ndf", "blinn-", "1", "nan"),
+    "--path": ("", "curve", "Poly", "../poly"),
+    "--light-unit": ("", "Full", "6", "half"),
+    "--variant": ("", "V0", "V7", "v1", "REFINED", "V1..V6"),
+    "--projection": ("", "iso", "PERSPECTIVE", "orthographic\t"),
+    "--up": ("x", "Y", "", "-z"),
+    "--mesh": ("",),
+}  # fmt: skip
+BAD_VECTORS = {
+    **dict.fromkeys(("--colour", "--highlight"), (
+        "0 0 1.1", "-0.1 0 0", "nan 0 0", "0 inf 0", "red", "1 1", "#fff 0 0",
+    )),
+    "--light": (
+        "0 0 0", "-0.0 0 0", "nan 0 1", "inf 0 0", "-inf inf 0", "1e300 0 0", "1e-300 1e-300 0",
+        "a b c", "1 2", "1", "",
     ),
-    # out of range counts even where the model does not use it
-    (["--model", "lambert", "--shininess", "2000"], "--shininess"),
-    (["--model", "blinn", "--roughness", "0"], "--roughness"),
-    *((["--yaw", value], "--yaw") for value in ("nan", "361", "-1e9", "left", "")),
-    *((["--pitch", value], "--pitch") for value in ("nan", "90.001", "-inf", "up", "")),
-    *((["--zoom", value], "--zoom") for value in ("nan", "0", "-0.0", "0.049", "50.1", "1e-320", "-1", "")),
-    *((["--field-of-view", value], "--field-of-view") for value in ("nan", "0", "0.99", "120.1", "180", "wide")),
-    *((["--criterion", value], "--criterion") for value in ("nan", "-0.001", "1.01", "inf", "", "P2")),
-    *((["--threshold", value], "--threshold") for value in ("nan", "-0.1", "1.01", "inf", "", "high")),
-    # out of range counts even where the projection does not use it
-    (["--projection", "orthographic", "--field-of-view", "400"], "--field-of-view"),
-    (["--form", "refined", "--degree", "7"], "--degree"),
-    *((["--light", *value.split()], "--light") for value in ("0 0 0", "-0.0 0 0", "nan 0 1", "inf 0 0", "-inf inf 0")),
-    *((["--light", *value.split()], "--light") for value in ("1e300 0 0", "1e-300 1e-300 0", "a b c", "1 2", "1", "")),
-]  # fmt: skip
-BAD_NAMES = [
-    *((["--form", name], "--form") for name in ("", "Refined", "refined ", "papers", "1", "\x1b[2J", "\u0440aper")),
-    *((["--evaluator", name], "--evaluator") for name in ("", "Horner", "newton", "0", "horner\n")),
-    *((["--model", name], "--model") for name in ("", "Blinn", "gouraud", "blinn,phong", "None", "nan")),
-    *((["--energy", name], "--energy") for name in ("", "None", "ward", "blinn_ndf", "blinn-", "1", "nan")),
-    (["--energy", "phong"], "--energy: 'phong' is none of none, blinn, blinn-modified, blinn-ndf, blinn-height"),
-    *((["--model", name, "--energy", "blinn"], "--energy") for name in MODELS if name != "blinn"),
-    *((["--path", name], "--path") for name in ("", "curve", "Poly", "../poly")),
-    *((["--light-unit", name], "--light-unit") for name in ("", "Full", "6", "half")),
-    (
-        ["--light-unit", "folded", "--model", "ward"],
-        "--light-unit: folded is allowed with --path line and --model lamb",
-    ),
-    (["--light-unit", "folded", "--path", "normals"], "--light-unit: folded is allowed"),
-    *((["--variant", name], "--variant") for name in ("", "V0", "V7", "v1", "REFINED", "V1..V6")),
-    *((["--projection", name], "--projection") for name in ("", "iso", "PERSPECTIVE", "orthographic\t")),
-    *((["--mesh", name], "--mesh") for name in ("",)),
-    *((["--mesh", name], name.strip()[-9:]) for name in ("Head", "heads", "nowhere.obj", "a/b.ply", "cube", "sphere ")),
-    *((["--mesh", name], "directory") for name in (".", "/", "..")),
-    (["--mesh", "-"], "-"),
-    (["--mesh", "\x1b]0;x\x07.obj"], "?]0;x?.obj"),
-    (["--mesh", "\udcff.obj"], "?.obj"),
-    (["--mesh", "m" * 10000 + ".obj"], ".obj"),
-    (["--mesh", "https://localhost/mesh.obj"], "mesh.obj"),
-]
+}  # fmt: skip
+# options, and what the message must tell
 BAD_SHAPES = [
     *(([option], option) for option in ("--size", "--mesh", "--out", "--light", "--zoom", "--form")),  # no value
-    (["--size="], "--size"),
-    (["--size", "--mesh"], "--size"),
-    (["--light", "1", "2"], "--light"),
-    (["--size", "64", "--size", "8"], "--size"),  # the last one counts
-    (["--mesh", "sphere", "--mesh", "nowhere.obj"], "nowhere.obj"),
+    (["--size="], "--size"), (["--size", "--mesh"], "--size"), (["--light", "1", "2"], "--light"),
+    # the last one counts
+    (["--size", "64", "--size", "8"], "--size"), (["--mesh", "sphere", "--mesh", "nowhere.obj"], "nowhere.obj"),
     (["--form", "paper", "--form", "both"], "--form"),
-    *((["--frames", value], "--frames") for value in ("0", "-1", "3601", "2.5", "nan", "", "all")),
+    (["--path", "line", "--degree", "2", "--path", "normals"], "--degree"),
+    # out of range counts even where it is not used
+    (["--model", "lambert", "--shininess", "2000"], "--shininess"), (["--frames", "2", "--lanes", "3"], "--lanes"),
+    (["--model", "blinn", "--roughness", "0"], "--roughness"), (["--form", "refined", "--degree", "7"], "--degree"),
+    (["--projection", "orthographic", "--field-of-view", "400"], "--field-of-view"),
     (["--scheduler", "tcp://127.0.0.1:1"], "--scheduler: is without effect on one frame"),
-    (["--frames", "2", "--lanes", "3"], "--lanes"),
-    (["extra"], "extra"),
-    (["--", "--size"], "--size"),
-    (["--nosuch"], "--nosuch"),
-    (["--siz", "64"], "--siz"),
-    (["-s", "64"], "-s"),
-    (["--Size", "64"], "--Size"),
-    (["--size:64"], "--size"),
-    (["\u2014size", "64"], "64"),
-    (["\u2014size"], "size"),
-    (["nowhere.ply"], "nowhere.ply"),
-    (["nowhere.ply", "elsewhere.ply"], "elsewhere.ply"),
-    (["--help=1"], "--help"),
-    (["--\x1b[31m"], "31m"),
-    (["--" + "x" * 5000], "No such option"),
-]
-OTHER_MESHES = [
-    *((["--crease", value], "--crease") for value in ("-1", "180.1", "nan", "", "sharp")),
-    *((["--up", value], "--up") for value in ("x", "Y", "", "-z")),
-    (["--flat", "--crease", "20"], "--crease: is given beside --flat"),
-    (["--flip=yes"], "--flip"),
-]
+    (["--flat", "--crease", "20"], "--crease: is given beside --flat"), (["--flip=yes"], "--flip"),
+    (["extra"], "extra"), (["--", "--size"], "--size"), (["--nosuch"], "--nosuch"), (["--siz", "64"], "--siz"),
+    (["-s", "64"], "-s"), (["--Size", "64"], "--Size"), (["--size:64"], "--size"), (["\u2014size", "64"], "64"),
+    (["\u2014size"], "size"), (["nowhere.ply"], "nowhere.ply"), (["nowhere.ply", "elsewhere.ply"], "elsewhere.ply"),
+    (["--help=1"], "--help"), (["--\x1b[31m"], "31m"), (["--" + "x" * 5000], "No such option"),
+]  # fmt: skip
+BAD_MESHES = [
+    *((name, name.strip()[-9:]) for name in ("Head", "heads", "nowhere.obj", "a/b.ply", "cube", "sphere ")),
+    *((name, "directory") for name in (".", "/", "..")), ("-", "-"), ("\x1b]0;x\x07.obj", "?]0;x?.obj"),
+    ("\udcff.obj", "?.obj"), ("m" * 10000 + ".obj", ".obj"), ("https://localhost/mesh.obj", "mesh.obj"),
+]  # fmt: skip
 WITHOUT_EFFECT = [
     *((["--model", "lambert", option, *value], option) for option, value in (
         ("--shininess", ["8"]), ("--exposure", ["1"]), ("--specular", ["0.5"]), ("--highlight", ["1", "1", "1"]),
     )),
+    *((["--path", "normals", *option.split()], option.split()[0]) for option in (
+        "--degree 3", "--evaluator fdiff", "--criterion 0",
+    )),
+    *((["--path", "line", *option.split()], option.split()[0]) for option in ("--variant refined", "--threshold 0.9")),
+    *((["--model", name, "--energy", "blinn"], "--energy") for name in MODELS if name != "blinn"),
+    (["--energy", "phong"], "--energy: 'phong' is none of none, blinn, blinn-modified, blinn-ndf, blinn-height"),
+    (["--light-unit", "folded", "--model", "ward"], "--light-unit: folded is allowed with --path line and --model"),
+    (["--light-unit", "folded", "--path", "normals"], "--light-unit: folded is allowed"),
     (["--model", "ward", "--shininess", "8"], "--shininess: is without effect on model ward, allowed with --model pho"),
     (["--roughness", "0.2"], "--roughness: is without effect on model blinn, allowed with --model cook-torrance, ward"),
-    (["--model", "ward", "--f0", "0.1"], "--f0"),
-    (["--model", "schlick", "--energy", "none"], "--energy"),
+    (["--model", "ward", "--f0", "0.1"], "--f0"), (["--model", "schlick", "--energy", "none"], "--energy"),
     (["--criterion", "0.1"], "--criterion: is without effect on model blinn, allowed with --model lambert"),
     (["--degree", "2"], "--degree: is without effect on form refined, allowed with --form paper"),
     (["--path", "normals", "--threshold", "0.5"], "--threshold: is without effect on variant refined"),
     (["--field-of-view", "30"], "--field-of-view: is without effect on projection orthographic"),
-]  # fmt: skip
-OTHER_PATH = [
-    *((["--path", "normals", *option], option[0]) for option in (["--degree", "3"], ["--evaluator", "fdiff"])),
-    (["--path", "normals", "--criterion", "0"], "--criterion"),
-    *((["--path", "line", *option], option[0]) for option in (["--variant", "refined"], ["--threshold", "0.9"])),
     (["--variant", "V5"], "--variant: is without effect on path line, allowed with --path normals"),
     (["--path", "normals", "--form", "paper", "--degree", "2"], "--degree"),
-    (["--path", "line", "--degree", "2", "--path", "normals"], "--degree"),  # the last path counts
-]
+]  # fmt: skip
 BAD_COMMANDS = [
-    ([], "command"),
-    ([""], "command"),
-    (["Render"], "Render"),
-    (["nosuch"], "nosuch"),
-    (["ren\nder"], "command"),
-    (["\x1b[31mrender"], "render"),
-    (["x" * 5000], "xxx"),
-    (["--size", "64"], "--size"),
-    (["--nosuch", "render"], "--nosuch"),
-    (["--version=2"], "--version"),
-    (["units", "--vectors", "0"], "--vectors: 0"),
-    (["units", "--vectors", "-1"], "--vectors: -1"),
-    (["units", "--vectors", "nan"], "--vectors"),
-    (["units", "--vectors", ""], "--vectors"),
-    (["units", "--vectors", "1e6"], "--vectors"),
-    (["units", "--vectors", "1000000001"], "--vectors"),
-    (["units", "--vectors", "9" * 60], "--vectors"),
-    (["units", "--vectors"], "--vectors"),
-    (["units", "--seed", "-1"], "--seed"),
-    (["units", "--seed", str(1 << 32)], "--seed"),
-    (["units", "--seed", "x"], "--seed"),
-    (["units", "shade_third"], "shade_third"),
-    (["bench", "--runs", "1"], "--runs"),
-    (["bench", "head"], "head"),
-    (["papers", "P1"], "P1"),
+    *(([command], told) for command, told in (
+        ("", "command"), ("Render", "Render"), ("nosuch", "nosuch"), ("ren\nder", "command"),
+        ("\x1b[31mrender", "render"), ("x" * 5000, "xxx"), ("--version=2", "--version"),
+    )),
+    ([], "command"), (["--size", "64"], "--size"), (["--nosuch", "render"], "--nosuch"),
+    *((["units", "--vectors", value], f"--vectors: {value}") for value in ("0", "-1")),
+    *((["units", "--vectors", value], "--vectors") for value in ("nan", "", "1e6", "1000000001", "9" * 60)),
+    *((["units", "--seed", value], "--seed") for value in ("-1", str(1 << 32), "x")),
     *((["gallery", "--size", value], "--size") for value in ("15", "4097", "nan", "")),
-    (["gallery", "--mesh", "nowhere.obj"], "nowhere.obj"),
-    (["gallery", "--mesh", ""], "--mesh"),
-    (["gallery", "--model", "ward"], "--model"),
-    (["gallery", "--out", ""], "--out"),
-    (["synth", "nosuch"], "nosuch"),
-    (["synth", ""], "no such module"),
-    (["synth", "shade_third", "nosuch"], "nosuch"),
-    (["synth", "shade_pkg"], "shade_pkg"),
-    (["synth", "../rtl/fixed/shade_third.sv"], "shade_third.sv"),
-    (["synth", "--all"], "--all"),
-    (["synth", "shade_third;rm"], "shade_third;rm"),
-]
+    *(([*command.split(), name], name) for command, name in (
+        ("units", "shade_third"), ("bench", "head"), ("papers", "P1"), ("gallery --mesh", "nowhere.obj"),
+        ("synth", "nosuch"), ("synth shade_third", "nosuch"), ("synth", "shade_pkg"), ("synth", "--all"),
+        ("synth", "shade_third;rm"),
+    )),
+    (["bench", "--runs", "1"], "--runs"), (["gallery", "--mesh", ""], "--mesh"), (["gallery", "--out", ""], "--out"),
+    (["gallery", "--model", "ward"], "--model"), (["units", "--vectors"], "--vectors"),
+    (["synth", ""], "no such module"), (["synth", "../rtl/fixed/shade_third.sv"], "shade_third.sv"),
+]  # fmt: skip
 BAD_RENDERS = [
     (["render", "--mesh", "sphere", "--size", "16", *options], told)
-    for options, told in [*BAD_NUMBERS, *BAD_NAMES, *BAD_SHAPES, *OTHER_MESHES, *WITHOUT_EFFECT, *OTHER_PATH]
-]
+    for options, told in [
+        *(([option, value], option) for option, values in BAD_VALUES.items() for value in values),
+        *(([option, *value.split()], option) for option, values in BAD_VECTORS.items() for value in values),
+        *((["--mesh", name], told) for name, told in BAD_MESHES), *BAD_SHAPES, *WITHOUT_EFFECT,
+    ]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(

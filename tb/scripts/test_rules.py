@@ -219,10 +219,7 @@ def test_file_list_rules(toy: Path, monkeypatch) -> None:
     monkeypatch.setattr(lint, "sources", lambda: [package, toy])
     assert lint.file_list() == []
     monkeypatch.setattr(lint, "sources", lambda: [package, absent])
-    assert lint.file_list() == [
-        "rtl/fixed/shade_absent.sv: listed, but missing",
-        "rtl/fixed/shade_toy.sv: not listed",
-    ]
+    assert lint.file_list() == ["rtl/fixed/shade_absent.sv: listed, but missing", "rtl/fixed/shade_toy.sv: not listed"]
     monkeypatch.setattr(lint, "sources", lambda: [package, toy, toy])
     assert lint.file_list() == ["rtl/fixed/shade_toy.sv: listed twice"]
 

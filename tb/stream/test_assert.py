@@ -148,7 +148,7 @@ def test_it_fires(
         monkeypatch.setattr(verilate, "modules", lambda: {path.stem: path for path in known})
         monkeypatch.setattr(model, "_loaded", {})
     with pytest.raises(SimulationError, match="an assertion failed"):
-        sim.load(module, **point).run(**run)
+        sim.load(module, public=(), **point).run(**run)
     path = re.search(r"TOP\S*?(?=:)", capfd.readouterr().out)[0]
     assert case.partition(",")[0].partition(".")[2] in path.split("."), path
 

@@ -131,7 +131,7 @@ def test_bad_packets(case: str) -> None:
     """What is wrong is dropped, told and counted; all else is drawn to the bit."""
     stream, left, bit, count = damaged(case)
     words, lobe = golden.registers(Material(), LIGHT)
-    run = sim.load("shade_patch", LANES=2).run(**stream, **patch.settings(words), seed=SEED, out_stall=0.3)
+    run = sim.load("shade_patch", LANES=2, LIGHTS=1).run(**stream, **patch.settings(words), seed=SEED, out_stall=0.3)
     wanted = golden.draw(model(left), words, lobe)
     user = (wanted.line << k.PLACE_W | wanted.column) << k.TAG_W | wanted.tag
     expected = np.stack([user, wanted.pixels[:, 0] | wanted.pixels[:, 1] << k.PIXEL_W, wanted.last], axis=-1)

@@ -26,8 +26,9 @@ SECONDS = ("simulated_pixels_per_second", "wall_seconds")
 
 
 @pytest.fixture
-def cluster() -> Iterator[distributed.LocalCluster]:
-    """A scheduler with two workers."""
+def cluster(monkeypatch: pytest.MonkeyPatch) -> Iterator[distributed.LocalCluster]:
+    """A scheduler with two workers, for whom a loaded machine may take its time."""
+    monkeypatch.setattr(batch, "PATIENCE", HANGS)
     options = {"threads_per_worker": 1, "memory_limit": 0, "dashboard_address": None, "silence_logs": "CRITICAL"}
     with distributed.LocalCluster(n_workers=2, **options) as made:
         yield made

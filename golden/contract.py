@@ -298,17 +298,27 @@ LATENCY_ANGLES_FOLDED = LATENCY_MUL + 9  # six products, their sums, clamp
 LATENCY_LIGHT_FOLDED = LATENCY_ANGLES_FOLDED + LATENCY_LOBE_FOLDED + LATENCY_GAIN  # FOLD = 5: 5 more, as of the lobe
 LATENCY_LIGHT_LOCAL = LATENCY_HALFWAY + 1 + LATENCY_VERSINE + LATENCY_FACTOR + LATENCY_GAIN
 LATENCY_COLOUR = 1 + LATENCY_MUL + 3  # negative light, products, two adders, saturation
-LATENCY_KAPPA = 4 + LATENCY_MUL + 2 + LATENCY_MUL + 4  # common shift, squares, sums, product, shift, range
-LATENCY_PLANNER = LATENCY_KAPPA + 15  # see shade_planner
+LATENCY_KAPPA = 4 + LATENCY_MUL + 3 + LATENCY_MUL + 4  # common shift, squares, their sum, product, shift, range
+LATENCY_WEIGHT = LATENCY_KAPPA + 2  # what is left of x, its limit
+LATENCY_PLANNER = LATENCY_WEIGHT + 1 + 3 * 4  # three places; see planner_latency
 LATENCY_COLLECT = 1  # the record
 LATENCY_NODE_WALK = 5  # the choice of a run, its step, the run, its node, the rounding
 
 
+def planner_pace(log2_max: int = RECORD_LOG2) -> int:
+    """In how many clocks ``shade_planner`` takes a span."""
+    return max(4, log2_max - 1)
+
+
+def planner_latency(log2_max: int = RECORD_LOG2) -> int:
+    """Clocks of ``shade_planner``."""
+    return LATENCY_WEIGHT + 1 + 3 * planner_pace(log2_max)
+
+
 def line_latency(fold: int) -> int:
-    """Clocks from a span to its first normal in ``shade_line``; folded units take what comes in phase 0."""
-    later, unit = (fold, LATENCY_UNIT_FOLDED) if fold > 2 else (0, LATENCY_UNIT)
-    node = LATENCY_PLANNER + later + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK
-    return -(-node // fold) * fold + unit
+    """Clocks from a span to its first normal in ``shade_line``, fold - 1 more at most: units take nodes in phase 0."""
+    unit = LATENCY_UNIT_FOLDED if fold > 2 else LATENCY_UNIT
+    return LATENCY_PLANNER + LATENCY_FIFO_BLOCK + LATENCY_NODE_WALK + unit
 
 
 LATENCY_LINE = line_latency(1)  # span to its first normal

@@ -12,10 +12,10 @@
 //
 // Both producers give the same: a place in a record, early, and a unit normal. A further one needs the same three wires.
 // Nodes are prepared while earlier pixels are drawn. Every pipeline keeps going: what enters one has a credit for its place
-// in the FIFO behind it. No path leads from an input to an output, but, FOLD > 1, from phase_i to ready_o.
+// in the FIFO behind it. No path leads from an input to an output.
 // PATH_NORMALS = 0 leaves out shade_pixel_points; REFLECT, DIVIDE: see shade_light. EVALUATOR_FDIFF in FORM_REFINED:
 // shade_poly_line; otherwise shade_poly_span.
-// FOLD = 2 .. 8: planner, normals and light share multipliers: a span and a node in FOLD clocks; phase_i counts 0 .. FOLD - 1;
+// FOLD = 2 .. 8: normals and light share multipliers: a node in FOLD clocks; phase_i counts 0 .. FOLD - 1;
 // REFLECT, DIVIDE and PATH_NORMALS must be 0. The same pixels.
 // Latency, an empty lane: LATENCY_LANE clocks from a span of 1 pixel to its pixel (EVALUATOR_FDIFF, REFLECT = 1).
 // One pixel a clock where a span has no more nodes than pixels. Source: P1, P4.

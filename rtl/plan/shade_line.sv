@@ -12,9 +12,10 @@
 //   unit_o       the normal, S1.16, with valid_o; see shade_unit
 //   credit_i     gives one credit back; 2^RECORD_FIFO_LOG2 are there after reset, a record costs one
 //
-// FOLD = 2 .. 8: a span and a node in FOLD clocks, with fewer multipliers in planner and unit; phase_i counts 0 .. FOLD - 1,
-// and spans are taken in phase 0. No path leads from an input to an output, but from phase_i to ready_o.
-// Latency from a span to its first normal: LATENCY_LINE = 56 clocks, FOLD = 6: LATENCY_LINE_FOLDED = 76. One span, one node a
+// A span in 4 clocks, LOG2_MAX > 5: in LOG2_MAX - 1, see shade_planner: as short as four pixels they keep up with one pixel a
+// clock. FOLD = 2 .. 8: a node in FOLD clocks, with fewer multipliers in shade_unit; phase_i counts 0 .. FOLD - 1. No path leads
+// from an input to an output.
+// Latency from a span to its first normal: LATENCY_LINE = 57 clocks, FOLD > 2: LATENCY_LINE_FOLDED = 66, and FOLD - 1 more at most. One node a
 // clock. Source: P1, P4. Example: 5 pixels, degree 3: the normals of pixels 0, 1, 2, 4 in slots 0 to 3 of one record.
 module shade_line #(
   parameter int FOLD     = 1,
@@ -41,10 +42,22 @@ module shade_line #(
   localparam int LOG2 = shade_pkg::SPAN_FIFO_LOG2;
 
   // ---- spans, beside their plans: a plan comes later than its span -------------------------------------------------
-  logic take, taken, job_valid, job_taken, planned, plan_valid, plan_taken, unused_soon, unused_taken;
+  logic take, taken, under_way, job_valid, job_taken, planned, plan_valid, plan_taken, unused_soon, unused_taken;
   shade_pkg::job_t job, job_next;
   shade_pkg::plan_t plan, plan_next;
-  assign ready_o       = room_o && (FOLD == 1 || phase_i == '0);
+  // the planner's own phase: it stays at 0 while no span is under way
+  localparam int PACE = LOG2_MAX > 5 ? LOG2_MAX - 1 : 4;
+  localparam int LATENCY = shade_pkg::LATENCY_WEIGHT + 1 + 3 * PACE;
+  logic [shade_pkg::LOG2_W-1:0] pace_q;
+  logic [LATENCY-1:0] plans_q;  // spans under way, the latest in bit 0
+  assign under_way     = take || plans_q != '0;
+  assign planned       = plans_q[LATENCY-1];
+  always_ff @(posedge clk_i) begin
+    plans_q <= LATENCY'({plans_q, take});
+    pace_q  <= !under_way || pace_q == shade_pkg::LOG2_W'(PACE - 1) ? '0 : pace_q + shade_pkg::LOG2_W'(1);
+    if (rst_i) {plans_q, pace_q} <= '0;
+  end
+  assign ready_o       = room_o && pace_q == '0;
   assign take          = valid_i && ready_o;
   assign job.normal    = span_i.normal;
   assign job.increment = span_i.increment;
@@ -56,13 +69,11 @@ module shade_line #(
     .taken_o(taken)
   );
 
-  localparam int LATENCY = shade_pkg::LATENCY_PLANNER + (FOLD < 3 ? 0 : FOLD);
-  shade_planner #(.FOLD(FOLD), .LOG2_MAX(LOG2_MAX)) u_planner (
-    .clk_i, .rst_i, .phase_i, .normal_i(span_i.normal), .increment_i(span_i.increment),
+  shade_planner #(.LOG2_MAX(LOG2_MAX)) u_planner (
+    .clk_i, .phase_i(pace_q), .normal_i(span_i.normal), .increment_i(span_i.increment),
     .count_i(span_i.count), .flat_i(job.flat),
     .planner_i(draw_i.planner), .h_i(draw_i.light.h), .fixed_degree_i(draw_i.control.fixed_degree), .plan_o(plan)
   );
-  shade_valid #(.DEPTH(LATENCY)) u_planned (.clk_i, .rst_i, .valid_i(take), .valid_o(planned));
   shade_fifo #(.WIDTH($bits(plan)), .LOG2(LOG2), .BLOCK(1)) u_plans (
     .clk_i, .rst_i, .valid_i(planned), .data_i(plan), .valid_o(plan_valid), .ready_i(plan_taken), .data_o(plan_next),
     .taken_o(unused_taken)

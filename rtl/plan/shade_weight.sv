@@ -7,28 +7,27 @@
 // e^(-n x) there; w is a part of it that leaves the error of the highlight as it is: (n x / 2 - n u) / 4, n as a power of two.
 //
 //   normal_i      S2.29, of which S2.15 count     h_i  S1.16, constant while spans are under way
-//   kappa_i       U11.20, of the arc: LATENCY_KAPPA clocks later, FOLD = 3 .. 8: by FOLD more
+//   kappa_i       U11.20, of the arc: taken 16 clocks later
 //   planner_i     sharpness_exp; weight: the limit; 0: no weight, as in the paper
-//   weight_o      1 clock behind kappa_i
+//   weight_o      until the next one comes
 //   N.H rounded to 16 fraction bits, ties up; x cut to [0, 2 - 2^-16]
 //
-// FOLD = 1, 2: three 18 x 18 multipliers, one span a clock. FOLD = 3 .. 8: one, a span in FOLD clocks, taken when phase_i is 0.
-// Latency LATENCY_KAPPA + 1 clocks, FOLD = 3 .. 8: FOLD more.
+// One component a clock; an 18 x 18 multiplier. A span in PACE clocks, at least 4, taken when phase_i is 0; phase_i counts
+// 0 .. PACE - 1. Latency LATENCY_WEIGHT = 17 clocks.
 // Example: N.H = 0.9, exponent 9 (n = 512), kappa = 2 -> (51.2 - 8) / 8 -> 5. Source: P1, section V (degrees by region).
 module shade_weight #(
-  parameter int FOLD = 1
+  parameter int PACE = 4
 ) (
   input  logic                           clk_i,
-  input  logic                           rst_i,
-  input  logic [ shade_pkg::PHASE_W-1:0] phase_i,
+  input  logic [  shade_pkg::LOG2_W-1:0] phase_i,
   input  shade_pkg::step_t               normal_i,
   input  shade_pkg::vec_t                h_i,
   input  logic [ shade_pkg::KAPPA_W-1:0] kappa_i,
   input  shade_pkg::planner_t            planner_i,
   output logic [shade_pkg::WEIGHT_W-1:0] weight_o
 );
-  if (FOLD < 1 || FOLD > shade_pkg::FOLD_MAX) begin : g_check
-    $error("shade_weight: FOLD must be in 1 .. 8");
+  if (PACE < 4 || PACE > shade_pkg::LOG2_MAX) begin : g_check
+    $error("shade_weight: PACE must be in 4 .. 12");
   end
 
   localparam int W = shade_pkg::INTENSITY_W;
@@ -42,70 +41,49 @@ module shade_weight #(
   assign n.y = normal_i.y[CUT+:W];
   assign n.z = normal_i.z[CUT+:W];
 
-  // ---- N.H ---------------------------------------------------------------------------------------------------------
-  logic signed [SUM_W-1:0] sum;  // rounded by what it begins with
+  // is it clock c of a span?
+  function automatic logic at(input int c);
+    at = phase_i == shade_pkg::LOG2_W'(c % PACE);
+  endfunction
+
+  // ---- N.H: factors stand at the multiplier in clocks 1, 2, 3, their sum is there in clock 6 -------------------------------
+  logic signed [SUM_W-1:0] sum_q;  // rounded by what it begins with
   localparam logic signed [SUM_W-1:0] HALF = SUM_W'(1) <<< (DROP - 1);
-  localparam int SUMMED = FOLD < 3 ? 4 : 6;
-  if (FOLD < 3) begin : g_parallel
-    logic signed [2*W-1:0] x_q2, y_q2, z_q2;
-    logic signed [SUM_W-1:0] xy_q3, z_q3, sum_q4;
-    shade_mul #(.A_W(W), .B_W(W)) u_x (.clk_i, .a_i(n.x), .b_i(h_i.x), .p_o(x_q2));
-    shade_mul #(.A_W(W), .B_W(W)) u_y (.clk_i, .a_i(n.y), .b_i(h_i.y), .p_o(y_q2));
-    shade_mul #(.A_W(W), .B_W(W)) u_z (.clk_i, .a_i(n.z), .b_i(h_i.z), .p_o(z_q2));
-    always_ff @(posedge clk_i) begin
-      xy_q3  <= SUM_W'(x_q2) + SUM_W'(y_q2);
-      z_q3   <= SUM_W'(z_q2) + HALF;
-      sum_q4 <= xy_q3 + z_q3;
-    end
-    assign sum = sum_q4;
-    logic unused_phase;
-    assign unused_phase = &{1'b0, phase_i};
-  end else begin : g_folded
-    // factors of clock c stand at the multiplier in c + 1, their product comes in c + 3
-    function automatic logic at(input int c);
-      at = phase_i == shade_pkg::PHASE_W'(c % FOLD);
-    endfunction
-    logic signed [W-1:0] y_q, z_q, a_q, b_q;
-    logic signed [2*W-1:0] product;
-    logic signed [SUM_W-1:0] sum_q;
-    always_ff @(posedge clk_i) begin
-      if (at(0)) {y_q, z_q} <= {n.y, n.z};
-      a_q   <= at(0) ? n.x : at(1) ? y_q : z_q;
-      b_q   <= at(0) ? h_i.x : at(1) ? h_i.y : h_i.z;
-      sum_q <= (at(3) ? HALF : sum_q) + SUM_W'(product);
-    end
-    shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
-    assign sum = sum_q;  // in clock 6
+  logic signed [W-1:0] y_q, z_q, a_q, b_q;
+  logic signed [2*W-1:0] product;
+  always_ff @(posedge clk_i) begin
+    if (at(0)) {y_q, z_q} <= {n.y, n.z};
+    a_q   <= at(0) ? n.x : at(1) ? y_q : z_q;
+    b_q   <= at(0) ? h_i.x : at(1) ? h_i.y : h_i.z;
+    sum_q <= at(2) ? HALF : sum_q + SUM_W'(product);
   end
+  shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(a_q), .b_i(b_q), .p_o(product));
 
   // ---- x 2^exponent, the span's own until kappa comes -----------------------------------------------------------------
   localparam int X_W = F + 1;
   localparam int N_W = 14;  // below 2^13
-  localparam int LATER = FOLD < 3 ? 0 : FOLD;
-  logic signed [DOT_W-1:0] rest_q;
-  logic [X_W-1:0] x_q, x_shifted_q;
-  logic [N_W-1:0] far_q, far;
+  logic signed [DOT_W-1:0] rest_q7;
+  logic [X_W-1:0] x_q8, x_q9;
+  logic [N_W-1:0] far_q10, far_q14;
   always_ff @(posedge clk_i) begin
-    rest_q      <= DOT_W'(1 << F) - DOT_W'(sum >>> DROP);
-    x_q         <= rest_q < 0 ? '0 : rest_q >= DOT_W'(2 << F) ? '1 : X_W'(rest_q);
-    x_shifted_q <= x_q >> (~planner_i.sharpness_exp & 4'b1100);
-    far_q       <= N_W'({1'b0, x_shifted_q} >> 1 >> (~planner_i.sharpness_exp & 4'b0011));
+    if (at(6)) rest_q7 <= DOT_W'(1 << F) - DOT_W'(sum_q >>> DROP);
+    x_q8    <= rest_q7 < 0 ? '0 : rest_q7 >= DOT_W'(2 << F) ? '1 : X_W'(rest_q7);
+    x_q9    <= x_q8 >> (~planner_i.sharpness_exp & 4'b1100);
+    far_q10 <= N_W'({1'b0, x_q9} >> 1 >> (~planner_i.sharpness_exp & 4'b0011));
+    if (at(13)) far_q14 <= far_q10;
   end
-  shade_ring #(.WIDTH(N_W), .DEPTH(shade_pkg::LATENCY_KAPPA + LATER - SUMMED - 4)) u_far (
-    .clk_i, .rst_i, .d_i(far_q), .q_o(far)
-  );
 
   // ---- what is left of it, in eighths ----------------------------------------------------------------------------------
   localparam int WEIGHT_W = shade_pkg::WEIGHT_W;
   localparam int LOW = shade_pkg::KAPPA_F - 2;
   logic signed [N_W:0] left;
   logic [N_W-4:0] eighths;
-  assign left    = $signed({1'b0, far}) - $signed((N_W + 1)'(kappa_i >> LOW));
+  assign left    = $signed({1'b0, far_q14}) - $signed((N_W + 1)'(kappa_i >> LOW));
   assign eighths = left[N_W] ? '0 : left[N_W-1:3];
   always_ff @(posedge clk_i) begin
     weight_o <= eighths > (N_W - 3)'(planner_i.weight) ? planner_i.weight : WEIGHT_W'(eighths);
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, normal_i, planner_i, sum, left};
+  assign unused_bits = &{1'b0, normal_i, planner_i, sum_q, left};
 endmodule

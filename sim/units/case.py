@@ -64,7 +64,7 @@ class Case:
     ``vectors(rng, rows)`` makes random inputs, ``all_vectors`` yields every input. ``latency``: declared; of every
     single vector. ``bound``: of the error against ``exact`` in ulp, in the paper's form at least 1/2; rounding to
     nearest: 1/2. ``tolerance``: beside the bound what the error of each vector may be, in ulp, by port. ``late``:
-    inputs that are taken so many clocks after the others. ``ordered``: an output depends on the vectors before.
+    inputs that are taken so many clocks after the others, whole vectors. ``ordered``: an output depends on the vectors before.
     ``own_bench``: cocotb does not run it, as the module's bench does more. ``unit_f``: fraction bits of the outputs,
     ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in it: settings,
     which change while nothing is in flight. ``note``: what sets apart cases of the same point.
@@ -148,12 +148,17 @@ class Case:
             index = np.arange(min(rows, total)) if self.ordered else index
             yield {name: value[index] for name, value in inputs.items()}
 
+    @property
+    def _later(self) -> int:
+        """By how many vectors the latest input is late."""
+        return max(self.late.values(), default=0) // self.clocks_per_vector
+
     def _delayed(self, inputs: Arrays) -> Arrays:
         """Inputs as they are driven: those that are late behind the others; some vectors more, that nobody looks at."""
         if not self.late:
             return inputs
-        most = max(self.late.values())
-        shifts = {name: self.late.get(name.partition(".")[0], 0) for name in inputs}
+        most = self._later
+        shifts = {name: self.late.get(name.partition(".")[0], 0) // self.clocks_per_vector for name in inputs}
         return {
             name: np.r_[np.repeat(value[:1], shifts[name]), value, np.repeat(value[-1:], most - shifts[name])]
             for name, value in inputs.items()
@@ -161,7 +166,7 @@ class Case:
 
     def _compare(self, model: sim.Model, inputs: Arrays, expected: Arrays, run: sim.Run, result: Result) -> None:
         wrong = np.zeros(result.vectors, bool)
-        rows, most = result.vectors, max(self.late.values(), default=0)
+        rows, most = result.vectors, self._later
         if len(run.given) != rows + most:
             result.mismatches = abs(len(run.given) - rows - most)
             result.first_mismatch = f"{self}: {len(run.given) - most} outputs, expected {rows}"

@@ -122,10 +122,9 @@ def _kappa(form: str) -> Iterator[Case]:
     def ideal(i: Arrays) -> Arrays:
         return value(i, sum(i[name].astype(Real) ** 2 for name in names))
 
-    # folded: in shade_planner
     yield Case(
-        "shade_kappa", form, {}, golden, exact, ideal, vectors, None, k.LATENCY_KAPPA, unit_f=k.KAPPA_F, chunk=1 << 13,
-        late={"log2_i": 2},
+        "shade_kappa", form, {}, golden, exact, ideal, vectors, None, k.LATENCY_KAPPA, 4, unit_f=k.KAPPA_F,
+        chunk=1 << 13, late={"log2_i": 4},
         bound=1,  # cut, behind the cuts of its factors; those make 2^-12 of it at most, see tb/golden/test_plan.py
     )  # fmt: skip
 
@@ -154,8 +153,8 @@ def _weight(form: str) -> Iterator[Case]:
         return n | h | {"kappa_i": kappa} | sharpness(rng, rows) | static
 
     yield Case(
-        "shade_weight", form, {}, golden, golden, golden, vectors, None, k.LATENCY_KAPPA + 1, bound=0, unit_f=0,
-        chunk=1 << 13, late={"kappa_i": k.LATENCY_KAPPA},
+        "shade_weight", form, {}, golden, golden, golden, vectors, None, k.LATENCY_WEIGHT, 4, bound=0, unit_f=0,
+        chunk=1 << 13, late={"kappa_i": 16},
     )  # fmt: skip
 
 
@@ -202,12 +201,11 @@ def _planner(form: str) -> Iterator[Case]:
         split = (planned.main != 0).astype(np.int64)
         return {f"plan_o.{name}": value for name, value in (planned._asdict() | {"split": split}).items()}
 
-    for fold, more in ((1, {}), (6, {}), (1, {"LOG2_MAX": k.LOG2_MAX}), *((fold, {}) for fold in (2, 3, 4, 5, 7, 8))):
-        latency, pace = (k.LATENCY_PLANNER + fold, fold) if fold > 2 else (k.LATENCY_PLANNER, 1)
-        made = partial(golden, log2_max=more.get("LOG2_MAX", k.RECORD_LOG2))
+    for log2_max in (k.RECORD_LOG2, 4, k.LOG2_MAX):
+        made = partial(golden, log2_max=log2_max)
         yield Case(
-            "shade_planner", form, {"FOLD": fold} | more, made, made, made, vectors, None, latency, pace, bound=0,
-            unit_f=0, chunk=1 << 13,
+            "shade_planner", form, {"LOG2_MAX": log2_max}, made, made, made, vectors, None,
+            k.planner_latency(log2_max), k.planner_pace(log2_max), bound=0, unit_f=0, chunk=1 << 13,
         )  # fmt: skip
 
 

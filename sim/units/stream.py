@@ -458,7 +458,7 @@ def _line(**parameters: int) -> Stream:
         "shade_line", parameters, items, golden, k.line_latency(fold), steady=False,
         kinds=((k.MODEL_BLINN, 0), (k.MODEL_LAMBERT, 0), (k.MODEL_BLINN, 3)), usual=((k.MODEL_BLINN, 3),), stride=fold,
         credits=1 << k.RECORD_FIFO_LOG2, record="place_o.last", beside="place_valid_o",
-        longest=k.PIXELS_MAX, lengths=(5, 9, 33), through=("phase_i",),
+        longest=k.PIXELS_MAX, lengths=(5, 9, 33), slack=fold - 1,
     )  # fmt: skip
 
 
@@ -521,7 +521,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         return clocks if normals(path) else clocks + fold * (nodes(i) - 1)
 
     def work(i: Arrays) -> np.ndarray:
-        return 0 * i["span_i.count"] if normals(draw_of(i)["path"]) else fold * nodes(i)
+        return 0 * i["span_i.count"] if normals(draw_of(i)["path"]) else np.maximum(fold * nodes(i), k.planner_pace())
 
     def held(kind: tuple, n: int) -> int:
         """Pixels and records begun, with a credit; before them normals, or spans in the walk and in front of it."""
@@ -535,7 +535,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         kinds=tuple((path, code, None) for code in CODES for path in PATHS),
         usual=tuple((path, k.MODEL_BLINN, k.DEGREE_CUBIC) for path in PATHS),
         alone=tuple((path, k.MODEL_BLINN, degree) for path in PATHS for degree in (1, 2, 3)), steady=False, work=work,
-        longest=k.PIXELS_MAX, held=held, beside="lit_o", through=("phase_i",) * (fold > 1),
+        longest=k.PIXELS_MAX, held=held, beside="lit_o", slack=fold - 1,
         lengths=(1, 2, 3, 4, 5, 33),
     )  # fmt: skip
 

@@ -15,8 +15,8 @@
 // A span in 4 clocks, LOG2_MAX > 5: in LOG2_MAX - 1, see shade_planner: as short as four pixels they keep up with one pixel a
 // clock. FOLD = 2 .. 8: a node in FOLD clocks, with fewer multipliers in shade_unit; phase_i counts 0 .. FOLD - 1. No path leads
 // from an input to an output.
-// Latency from a span to its first normal: LATENCY_LINE = 57 clocks, FOLD > 2: LATENCY_LINE_FOLDED = 66, and FOLD - 1 more at most. One node a
-// clock. Source: P1, P4. Example: 5 pixels, degree 3: the normals of pixels 0, 1, 2, 4 in slots 0 to 3 of one record.
+// Latency from a span to its first normal: LATENCY_LINE = 57 clocks, FOLD > 2: LATENCY_LINE_FOLDED = 66, and FOLD - 1 more at
+// most. One node a clock. Source: P1, P4. Example: 5 pixels, degree 3: the normals of pixels 0, 1, 2, 4 in slots 0 to 3 of one record.
 module shade_line #(
   parameter int FOLD     = 1,
   parameter int LOG2_MAX = shade_pkg::RECORD_LOG2

@@ -46,7 +46,7 @@ class Stream:
     ``latency``: clocks from an item to its first word, or from each to its, up to ``slack`` more; its words follow each
     other in ``stride`` clocks. ``steady``: that holds for every item, else only for one that finds nothing in front of
     it, of the kinds ``alone``. ``brisk``: items follow each other so; ``work(inputs)``: clocks each that they are
-    prepared for in turn. ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
+    prepared for in turn, ``pace(inputs)``: those in which one is taken at most. ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
     items of n words that are taken while the taker stands still.
 
     Where words cost credits, there are ``credits`` after reset; one pays for all words up to one in which the field
@@ -70,6 +70,7 @@ class Stream:
     steady: bool = True
     brisk: bool = True
     work: Callable[[Arrays], np.ndarray] | None = None
+    pace: Callable[[Arrays], int] | None = None
     longest: int = 0
     held: Callable[[Hashable, int], int] | None = None
     credits: int = 0
@@ -94,10 +95,11 @@ class Stream:
     def clocks(self, inputs: Arrays, given: Given) -> int:
         """From the first word of all items to the last, both counted, when nobody pauses."""
         words = np.bincount(given.owner) * self.stride
-        ready = np.cumsum(self.work(inputs) if self.work else 0 * words)
-        end = begin = ready[0]
-        for at, count in zip(ready, words, strict=True):
-            end = max(end, at) + count
+        work, pace = self.work(inputs) if self.work else 0 * words, self.pace(inputs) if self.pace else 0
+        ready, end, begin = 0, work[0], work[0]
+        for index, (clocks, count) in enumerate(zip(work, words, strict=True)):
+            ready = max(ready, pace * index) + clocks
+            end = max(end, ready) + count
         return int(end - begin - self.stride + 1)
 
     def mixture(self, rng: Rng, rows: int) -> np.ndarray:
@@ -459,6 +461,7 @@ def _line(**parameters: int) -> Stream:
         kinds=((k.MODEL_BLINN, 0), (k.MODEL_LAMBERT, 0), (k.MODEL_BLINN, 3)), usual=((k.MODEL_BLINN, 3),), stride=fold,
         credits=1 << k.RECORD_FIFO_LOG2, record="place_o.last", beside="place_valid_o",
         longest=k.PIXELS_MAX, lengths=(5, 9, 33), slack=fold - 1,
+        pace=lambda _: k.planner_pace(),
     )  # fmt: skip
 
 
@@ -521,7 +524,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         return clocks if normals(path) else clocks + fold * (nodes(i) - 1)
 
     def work(i: Arrays) -> np.ndarray:
-        return 0 * i["span_i.count"] if normals(draw_of(i)["path"]) else np.maximum(fold * nodes(i), k.planner_pace())
+        return 0 * i["span_i.count"] if normals(draw_of(i)["path"]) else fold * nodes(i)
 
     def held(kind: tuple, n: int) -> int:
         """Pixels and records begun, with a credit; before them normals, or spans in the walk and in front of it."""
@@ -536,6 +539,7 @@ def _lane(form: str = "refined", **more: int) -> Stream:
         usual=tuple((path, k.MODEL_BLINN, k.DEGREE_CUBIC) for path in PATHS),
         alone=tuple((path, k.MODEL_BLINN, degree) for path in PATHS for degree in (1, 2, 3)), steady=False, work=work,
         longest=k.PIXELS_MAX, held=held, beside="lit_o", slack=fold - 1,
+        pace=lambda i: 0 if normals(draw_of(i)["path"]) else k.planner_pace(),
         lengths=(1, 2, 3, 4, 5, 33),
     )  # fmt: skip
 

@@ -64,7 +64,8 @@ class Case:
     ``vectors(rng, rows)`` makes random inputs, ``all_vectors`` yields every input. ``latency``: declared; of every
     single vector. ``bound``: of the error against ``exact`` in ulp, in the paper's form at least 1/2; rounding to
     nearest: 1/2. ``tolerance``: beside the bound what the error of each vector may be, in ulp, by port. ``late``:
-    inputs that are taken so many clocks after the others, whole vectors. ``ordered``: an output depends on the vectors before.
+    inputs that are taken so many clocks after the others, whole vectors. ``ordered``: an output depends on the vectors
+    before.
     ``own_bench``: cocotb does not run it, as the module's bench does more. ``unit_f``: fraction bits of the outputs,
     ``more_f``: of those ports that have others. ``chunk``: vectors a run, for inputs that are constant in it: settings,
     which change while nothing is in flight. ``note``: what sets apart cases of the same point.

@@ -46,7 +46,8 @@ class Stream:
     ``latency``: clocks from an item to its first word, or from each to its, up to ``slack`` more; its words follow each
     other in ``stride`` clocks. ``steady``: that holds for every item, else only for one that finds nothing in front of
     it, of the kinds ``alone``. ``brisk``: items follow each other so; ``work(inputs)``: clocks each that they are
-    prepared for in turn, ``pace(inputs)``: those in which one is taken at most. ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
+    prepared for in turn, ``pace(inputs)``: those in which one is taken at most.
+    ``lengths`` of items that are timed, ``longest`` of all. ``held(kind, n)``:
     items of n words that are taken while the taker stands still.
 
     Where words cost credits, there are ``credits`` after reset; one pays for all words up to one in which the field

@@ -117,15 +117,6 @@ def test_by_hand(count: int, kappa: int, expected: list[tuple[int, ...]]) -> Non
     assert [row[1:] for row in rows(plan.plan([count], [kappa]))] == expected
 
 
-def test_every_pixel_once_in_order(records: plan.Records) -> None:
-    """The records' pixels, end to end, are the spans' pixels, end to end."""
-    span = np.repeat(records.span, records.count)
-    first = np.repeat(np.cumsum(records.count) - records.count, records.count)
-    pixel = np.repeat(records.start, records.count) + np.arange(len(span)) - first
-    expected = [(s, j) for s, count in enumerate(SPANS[:, 0].tolist()) for j in range(count)]
-    assert list(zip(span.tolist(), pixel.tolist(), strict=True)) == expected
-
-
 def test_the_rtl_takes_every_record(records: plan.Records) -> None:
     """Counts that their field can hold; so every pixel that was planned is drawn."""
     assert records.count.min() >= 1
@@ -190,16 +181,6 @@ def test_more_kappa_more_records() -> None:
         assert (np.diff(longest) <= 0).all()
         assert pieces[0] == 1
         assert longest[-1] <= 4 or count == 4096
-
-
-def test_spans_do_not_depend_on_each_other() -> None:
-    """Planned alone or among others, a span is the same."""
-    chosen = RNG.permutation(len(SPANS))[:200]
-    together = plan.plan(*SPANS[chosen].T)
-    alone = [row[1:] for count, kappa in SPANS[chosen].tolist() for row in rows(plan.plan([count], [kappa]))]
-    assert [row[1:] for row in rows(together)] == alone
-    assert np.array_equal(np.unique(together.span), np.arange(200))
-    assert len(plan.plan(np.zeros(0, int), np.zeros(0, int))) == 0
 
 
 def expanded(planned: plan.Plan) -> list[tuple[int, ...]]:

@@ -73,6 +73,15 @@ def test_out_of_range() -> None:
     assert (int(diffuse), int(told)) == (2 * ONE - 1, flags(k.LIGHT_RANGE, k.LIGHT_SATURATED))
 
 
+def test_versine_out_of_range() -> None:
+    """What does not fit is told; a vector an ulp too long counts as parallel."""
+    two, most, least = 2 << k.VERSINE_F, [2 * ONE - 1] * 3, [-2 * ONE] * 3
+    for form in (k.FORM_REFINED, k.FORM_PAPER):
+        assert [int(v) for v in light.versine(*most, *least, form=form)] == [two, 1]
+    assert [int(v) for v in light.versine(*least, *least, form=k.FORM_PAPER)] == [0, 1]
+    assert [int(v) for v in light.versine(*Z, 0, 0, ONE + 1, form=k.FORM_PAPER)] == [0, 1]
+
+
 @pytest.mark.parametrize(("model", "value"), [
     *((model, n) for model in ("phong", "blinn", "schlick") for n in (8, 16, 32, 128, 512)),
     *((model, m) for model in PHYSICAL for m in (0.1, 0.2, 0.3)),

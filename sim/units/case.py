@@ -273,8 +273,8 @@ def thresholds(rng: np.random.Generator, rows: int, default: int, width: int) ->
     return np.where(rng.random(rows) < 0.5, default, other)
 
 
-def in_forms(*parts: Callable[[str], Iterator[Case]]) -> Iterator[Case]:
-    """The cases of units that are given as functions of the form, each in both forms."""
+def in_forms(*parts: Callable[[str], Iterator[Case]], only: str = "") -> Iterator[Case]:
+    """The cases of units that are given as functions of the form, each in both forms or in one."""
     for part in parts:
-        for form in FORMS:
+        for form in [only] if only else FORMS:
             yield from part(form)

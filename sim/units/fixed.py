@@ -14,8 +14,6 @@ from polyshade.sim.units.case import FORMS, Arrays, Case, Real, every, in_forms,
 
 def _steps(form: str) -> Iterator[Case]:
     """The building blocks: round, saturate, multiply."""
-    if form != "refined":
-        return
     for width, drop, more in ((20, 7, {}), (26, 9, {}), (2, 1, {}), (9, 8, {}), (40, 16, {}), (20, 3, {"OUT_W": 17})):
         ranges = {"x_i": signed_range(width)}
         if more:  # a caller that asks for fewer bits promises that the result fits
@@ -77,8 +75,6 @@ def _ties(ranges: dict[str, tuple[int, int]], drop: int) -> Callable[[np.random.
 
 
 def _delay(form: str) -> Iterator[Case]:
-    if form != "refined":
-        return
     delays = [(20, 0), (12, 3), (16, 41), (33, 5), (1, 0), (8, 47)]
     rings = [(12, 3), (16, 41), (2, 51), (18, 16), (6, 8), (8, 17), (5, 47), (33, 5), (21, 32)]
     blocks = [(20, 3), (56, 13), (9, 64)]
@@ -110,8 +106,6 @@ def _third(form: str) -> Iterator[Case]:
 
 
 def _weigh(form: str) -> Iterator[Case]:
-    if form != "refined":
-        return
     for width, f, out_w, out_f, weights in (
         (20, k.SQUARE_F, 26, k.SQUARE_F, (k.INVC2_0, k.INVC2_C, k.INVC2_CC, 1)),
         (6, 4, 20, 16, (k.D1_0, k.ETA2_C, k.ETA2_CC, -1)),
@@ -140,8 +134,6 @@ def _weigh(form: str) -> Iterator[Case]:
 
 def _root(form: str) -> Iterator[Case]:
     """Reciprocal square root and its table: arguments of every length, down to one unit."""
-    if form != "refined":
-        return
 
     def rsqrt(i: Arrays) -> Arrays:
         y, e = fixed.rsqrt(i["z_i"])
@@ -165,4 +157,6 @@ def _root(form: str) -> Iterator[Case]:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/fixed``."""
-    return in_forms(_steps, _weigh, _delay, _third, _root)
+    yield from in_forms(_steps, _weigh, _delay, only="refined")
+    yield from in_forms(_third)
+    yield from in_forms(_root, only="refined")

@@ -75,8 +75,6 @@ def _versine(form: str) -> Iterator[Case]:
 
 def _directions(form: str) -> Iterator[Case]:
     """Where a mirror sends light, and the direction halfway between light and viewer."""
-    if form != "refined":
-        return
 
     def reflected(i: Arrays) -> Arrays:
         return dict(zip(("r_o.x", "r_o.y", "r_o.z"), light.reflect(*i.values()), strict=True))
@@ -238,8 +236,6 @@ def _lobe(form: str) -> Iterator[Case]:
 
 def _lobe_folded(form: str) -> Iterator[Case]:
     """The lobe behind its X: every X of few bits and random ones, registers of any kind."""
-    if form != "refined":
-        return
     high = (2 << k.LOBE_SCALED_F) - 1
     few = [name for name in light.LOBE if name not in ("xmax", "shift")]
 
@@ -268,8 +264,6 @@ def _lobe_folded(form: str) -> Iterator[Case]:
 
 def _fresnel(form: str) -> Iterator[Case]:
     """Fresnel's factor: any pair, and every cosine for sixteen materials."""
-    if form != "refined":
-        return
 
     def golden(i: Arrays) -> Arrays:
         return {"f_o": light.fresnel(i["c_i"], i["f0_i"])}
@@ -289,8 +283,6 @@ def _fresnel(form: str) -> Iterator[Case]:
 
 def _colour(form: str) -> Iterator[Case]:
     """Weighted light of a pixel."""
-    if form != "refined":
-        return
     names = [f"colour_i.{name}.{c}" for name in ("ambient", "kd", "ks") for c in "rgb"]
     lit = ("light_i.diffuse", "light_i.specular")
     pixel = ("pixel_o.red", "pixel_o.green", "pixel_o.blue")
@@ -318,4 +310,7 @@ def _colour(form: str) -> Iterator[Case]:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/light``."""
-    return in_forms(_versine, _directions, _lobe, _lobe_folded, _fresnel, _colour)
+    yield from in_forms(_versine)
+    yield from in_forms(_directions, only="refined")
+    yield from in_forms(_lobe)
+    yield from in_forms(_lobe_folded, _fresnel, _colour, only="refined")

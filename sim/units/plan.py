@@ -92,8 +92,6 @@ def sharpness(rng: np.random.Generator, rows: int) -> Arrays:
 
 def _kappa(form: str) -> Iterator[Case]:
     """kappa of increments of every length. Exact: of the bits that are kept; ideal: of all."""
-    if form != "refined":
-        return
     names = ("g_i.x", "g_i.y", "g_i.z")
 
     unused = {f"planner_i.{name}": 0 for name in ("t1", "t2", "t3", "threshold", "weight")}
@@ -131,8 +129,6 @@ def _kappa(form: str) -> Iterator[Case]:
 
 def _weight(form: str) -> Iterator[Case]:
     """How far a highlight is; normals of about unit length, and any."""
-    if form != "refined":
-        return
 
     def golden(i: Arrays) -> Arrays:
         n, h = (np.stack([i[f"{name}.{axis}"] for axis in "xyz"], -1) for name in ("normal_i", "h_i"))
@@ -160,8 +156,6 @@ def _weight(form: str) -> Iterator[Case]:
 
 def _planner(form: str) -> Iterator[Case]:
     """Plans of spans of all lengths and of counts that are none, adaptive, flat and of a fixed degree."""
-    if form != "refined":
-        return
 
     def vectors(rng: np.random.Generator, rows: int) -> Arrays:
         limits = (
@@ -211,4 +205,5 @@ def _planner(form: str) -> Iterator[Case]:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/plan``."""
-    return in_forms(_criterion, _kappa, _weight, _planner)
+    yield from in_forms(_criterion)
+    yield from in_forms(_kappa, _weight, _planner, only="refined")

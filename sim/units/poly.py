@@ -87,8 +87,6 @@ def _coef(form: str) -> Iterator[Case]:
 
 
 def _horner_step(form: str) -> Iterator[Case]:
-    if form != "refined":
-        return
     for width, t_f in ((k.VALUE_W + k.HORNER_GUARD, k.T_F), (12, 4)):
         half = signed_range(width - 1)  # s and c, so that the sum fits
 
@@ -104,8 +102,6 @@ def _horner_step(form: str) -> Iterator[Case]:
 
 
 def _horner(form: str) -> Iterator[Case]:
-    if form != "refined":
-        return
     points = [(k.COEF_W, k.INTENSITY_W, k.T_F), (4, 4, 4), (10, 6, 4)]
     for coef_w, d_w, t_f in points:
         ranges = {f"{n}_i": signed_range(coef_w) for n in "abc"} | {"d_i": signed_range(d_w), "t_i": (0, 1 << t_f)}
@@ -128,9 +124,6 @@ def _horner(form: str) -> Iterator[Case]:
 
 
 def _fdiff(form: str) -> Iterator[Case]:
-    if form != "refined":
-        return
-
     names = [*(f"{n}_i" for n in "abcd"), "log2_i"]
 
     def held(i: Arrays) -> tuple[list[np.ndarray], np.ndarray]:
@@ -203,8 +196,6 @@ def near_tie(rng: np.random.Generator, log2: np.ndarray, count: np.ndarray) -> A
 
 def _poly_start(form: str) -> Iterator[Case]:
     """First differences of every degree, at every length that a planner gives it."""
-    if form != "refined":
-        return
     nodes = {f"nodes_i.n{n}": signed_range(k.INTENSITY_W) for n in range(4)}
     for log2_max in (k.RECORD_LOG2, k.LOG2_MAX):
 
@@ -225,8 +216,6 @@ def _poly_start(form: str) -> Iterator[Case]:
 
 def _poly_state(form: str) -> Iterator[Case]:
     """Steps from any differences; behind a first pixel inputs are random."""
-    if form != "refined":
-        return
     width = k.INTENSITY_W + 2 + 3 * k.RECORD_LOG2
     names = ("node_i", "d1_i", "d2_i", "d3_i")
     ranges = {"node_i": signed_range(k.INTENSITY_W)} | {name: signed_range(width) for name in names[1:]}
@@ -263,4 +252,5 @@ def pixel_index(first: np.ndarray) -> np.ndarray:
 
 def cases() -> Iterator[Case]:
     """All cases of ``rtl/poly`` but whole spans, a stream."""
-    return in_forms(_coef, _horner_step, _horner, _fdiff, _poly_start, _poly_state)
+    yield from in_forms(_coef)
+    yield from in_forms(_horner_step, _horner, _fdiff, _poly_start, _poly_state, only="refined")

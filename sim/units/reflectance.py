@@ -205,8 +205,6 @@ def _angles(form: str) -> Iterator[Case]:
 
 def _factors(form: str) -> Iterator[Case]:
     """What the lobe is multiplied by; and the product."""
-    if form != "refined":
-        return
 
     def sized(rng: np.random.Generator, rows: int, *names: str, top: int = ONE) -> Arrays:
         values = mixed(dict.fromkeys((f"{name}_i" for name in names), (0, top)), top)(rng, rows)
@@ -424,4 +422,6 @@ def _nodes(form: str) -> Iterator[Case]:
 
 def cases() -> Iterator[Case]:
     """The cases of light in six models."""
-    return in_forms(_angles, _factors, _nodes)
+    yield from in_forms(_angles)
+    yield from in_forms(_factors, only="refined")
+    yield from in_forms(_nodes)

@@ -15,8 +15,6 @@ LENGTHS = 1 << k.DIRECT_P_OUT_F + 1
 
 def _rho(form: str) -> Iterator[Case]:
     """1/sqrt(P) - 1 of all P: next to 1, where nothing may be lost, and of every size."""
-    if form != "refined":
-        return
     one = 1 << k.DIRECT_P_OUT_F
 
     def golden(i: Arrays) -> Arrays:
@@ -47,8 +45,6 @@ def _rho(form: str) -> Iterator[Case]:
 
 def _dot_scaled(form: str) -> Iterator[Case]:
     """Dot products of any vectors at every shift, next to the ends of its range, too: modulo 4, cut."""
-    if form != "refined":
-        return
     axes = {name: [f"{name}.{axis}" for axis in "xyz"] for name in ("a_i", "b_i")}
 
     def parts(i: Arrays) -> tuple[np.ndarray, np.ndarray]:
@@ -70,6 +66,6 @@ def _dot_scaled(form: str) -> Iterator[Case]:
     )  # fmt: skip
 
 
-def cases() -> list[Case]:
+def cases() -> Iterator[Case]:
     """All cases of this file."""
-    return [*in_forms(_dot_scaled), *in_forms(_rho)]
+    return in_forms(_dot_scaled, _rho, only="refined")

@@ -151,6 +151,9 @@ VARIANT_W = 3
 
 # ---- triangles -------------------------------------------------------------------------------------------------
 SUBPIXEL_F = 8  # a vertex stands on a grid of 1/256 pixel
+GROWTH_W = (
+    STEP_W + SUBPIXEL_F
+)  # increments of a normal, S10.29, of a depth, S9.30: a way from a vertex has 8 fraction bits
 COORDINATE_W = 24  # S15.8: vertices up to 32768 pixels from the frame's first pixel
 DEPTH_F = 24  # depth of a vertex and of a pixel, U0.24 in [0, 1)
 VERTEX_F = 16  # components of a vertex' normal, S0.16 in [-1, 1)
@@ -259,10 +262,10 @@ LATENCY_HORNER_SEQ = 6  # clocks a value: load and the five steps of P1, Fig. 9
 LATENCY_FDIFF = 6  # two shifter levels, two adder levels, the state, the rounding
 LATENCY_FIFO = 2  # memory, output register
 LATENCY_FIFO_BLOCK = 3  # one more
-LATENCY_CROSS = LATENCY_MUL + 2  # products, difference, sum
+LATENCY_CROSS = LATENCY_MUL_IN + 1  # product, sum
 LATENCY_EXPONENT = 4  # four shifter levels
-LATENCY_RECIPROCAL = LATENCY_EXPONENT + 11  # three times m, two bits of the quotient a clock, rounding
-LATENCY_GRADIENT = 3 + LATENCY_MUL + 3  # three shifter levels, product, rounding, range, pair
+LATENCY_RECIPROCAL = LATENCY_EXPONENT + 20  # a bit of the quotient a clock, rounding
+LATENCY_GRADIENT = 1 + 3 + LATENCY_MUL + 3  # the sum, three shifter levels, product, two turns of the sum, pair
 LATENCY_RSQRT = 2 + 2 + 2 * (LATENCY_MUL + 1)  # two shifter levels, the table, two steps of Horner's scheme
 LATENCY_NORMALIZE = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products
 LATENCY_UNIT = LATENCY_MUL + 2 + LATENCY_RSQRT + 2 + LATENCY_MUL + 1  # squares, sums, 1/root, shift, products

@@ -15,6 +15,8 @@ Normal and depth are linear functions of column and line. With v1, v2 the differ
 
 The sums are exact; 1/A has the mantissa of :func:`reciprocal`, the same for all of a triangle's increments. An error of
 1/A hence stretches the way from vertex 0 to a pixel by at most 2^-17 of it and never throws a sliver's pixels out.
+Increments may be of any size, so they are kept modulo 2^40 of their ulp, values modulo 2^32: a way has 8 fraction bits,
+so that a multiple of 2^40 is one of 2^32 at a pixel, and there the value lies between those of the vertices.
 """
 
 from __future__ import annotations
@@ -78,7 +80,8 @@ class Scanned:
 
     ``plane``, ``dcolumn``, ``dline`` (T, 4): normal S2.29 and depth S1.30, modulo 4, at the first pixel of the first
     run, and their increments. ``box`` (T, 5): column and line of that pixel, columns and lines of a box that holds all
-    pixels, its columns on the left of that pixel. ``narrow`` (T,): the increments fit, see ``golden.types.TRIANGLE``.
+    pixels, its columns on the left of that pixel. ``steep`` (T,): an increment of the normal is not in S2.29 and
+    stands modulo 8; ``narrow`` (T,): none is, and all fit, see ``golden.types.TRIANGLE``.
     """
 
     index: Int  # (T,) of the triangle among those given
@@ -86,6 +89,7 @@ class Scanned:
     dcolumn: Int
     dline: Int
     box: Int
+    steep: Int
     narrow: Int
     tag: Int
     flat: Int
@@ -96,7 +100,6 @@ class Scanned:
     faults: dict[str, int]
     culled: int
     empty: int
-    steep: int  # triangles with a component that is constant, as its increments do not fit
     ended: Int | None = None  # (T,) 1: an empty run stands behind those of the triangle; None: behind none
 
 
@@ -119,11 +122,11 @@ def reciprocal(a: ArrayLike) -> tuple[Int, Int]:
 
 
 def gradient(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False) -> tuple[Int, Int]:
-    """(256 cross / A in the format of the component, 1 where it does not fit and is 0) (``shade_gradient``).
+    """(256 cross / A modulo 2^40 of its ulp, 1 where it is not within 2^31 of them) (``shade_gradient``).
 
     ``cross``: v1 dy2 - v2 dy1, with the sign of A taken out; ``r``, ``e``: of ``reciprocal(A)``. The sum is shifted so
-    that 19 bits remain below the result's last one, cut, multiplied by r, rounded to nearest, ties up: S2.29 of a
-    normal, S1.30 of a depth. Error at most 3/4 ulp and that of r.
+    that 19 bits remain below the result's last one, cut, multiplied by r, rounded to nearest, ties up: S10.29 of a
+    normal, S9.30 of a depth. Error at most 3/4 ulp and that of r.
 
     >>> [int(v) for v in gradient(1 << 20, *reciprocal(1 << 24))]  # 256 2^20 2^-16 / 2^24 = 2^-12
     [131071, 0]
@@ -131,13 +134,13 @@ def gradient(cross: ArrayLike, r: ArrayLike, e: ArrayLike, depth: bool = False) 
     cross, r, e = integers(cross, r, e)
     left = 4 + ALIGN - e - k.DEPTH_DOWN * depth
     up, down = np.maximum(left, 0), np.maximum(-left, 0)
-    bits = k.STEP_W + 3  # what goes into the multiplier
-    wide = (up > 0) & ((cross >> np.maximum(bits - 1 - up, 0)) + 1 >> 1 != 0)  # more than its sign would be lost
-    aligned = np.where(wide, 0, cross << up) >> down
-    wide |= (aligned >> bits - 1) + 1 >> 1 != 0
-    g = round(np.where(wide, 0, aligned) * r, ALIGN)
-    wide |= (g >> k.STEP_W - 1) + 1 >> 1 != 0
-    return np.where(wide, 0, g), wide.astype(np.int64)
+    aligned = cross << up >> down  # modulo 2^64
+    g = wrap(round(aligned * r, ALIGN), k.GROWTH_W)
+    bits = k.STEP_W + 3  # with fewer g is below 2^32
+    steep = (up > 0) & ((cross >> np.maximum(bits - 1 - up, 0)) + 1 >> 1 != 0)
+    steep |= (aligned >> bits - 1) + 1 >> 1 != 0
+    steep |= (g >> k.STEP_W - 1) + 1 >> 1 != 0
+    return g, steep.astype(np.int64)
 
 
 def edges(x: ArrayLike, y, dx, dy, line) -> Int:
@@ -188,35 +191,28 @@ def twice_area(v: Vertices) -> Int:
     return cross(dx[:, 0], dy[:, 1], dx[:, 1], dy[:, 0])
 
 
-def setup(v: Vertices, flat: int = 0) -> tuple[Int, Int]:
-    """Increments of normal and depth per column and line (T, 4); of both 0 where one does not fit (``shade_setup``)."""
-    dcolumn, dline, _ = _setup(v, flat)
-    return dcolumn, dline
-
-
-def _setup(v: Vertices, flat: int) -> tuple[Int, Int, NDArray[np.bool_]]:
-    """The same, and where they fit."""
+def setup(v: Vertices, flat: int = 0) -> tuple[Int, Int, Int]:
+    """Increments of normal and depth per column and line (T, 4), modulo 2^40, and which are steep (``shade_setup``)."""
     area = twice_area(v)
     sign = np.sign(area)
     r, e = reciprocal(np.abs(area))
     dx, dy = v.x[:, 1:] - v.x[:, :1], v.y[:, 1:] - v.y[:, :1]
-    found, every = np.zeros((2, len(v), COMPONENTS), np.int64), np.ones((len(v), COMPONENTS), bool)
+    found, steep = np.zeros((2, len(v), COMPONENTS), np.int64), np.zeros((len(v), COMPONENTS), np.int64)
     for c in range(COMPONENTS):
         depth = c == COMPONENTS - 1
         value = v.depth if depth else v.normal[:, :, c]
         value = value[:, 1:] - value[:, :1] if depth or not flat else np.zeros_like(value[:, 1:])
-        column, wide_column = gradient(sign * cross(value[:, 0], dy[:, 1], value[:, 1], dy[:, 0]), r, e, depth)
-        line, wide_line = gradient(-sign * cross(value[:, 0], dx[:, 1], value[:, 1], dx[:, 0]), r, e, depth)
-        fits = (wide_column | wide_line) == 0
-        found[:, :, c] = np.where(fits, column, 0), np.where(fits, line, 0)
-        every[:, c] = fits
-    return found[0], found[1], every
+        crossed = [cross(value[:, 0], way[:, 1], value[:, 1], way[:, 0]) for way in (dy, dx)]
+        found[0, :, c], far_column = gradient(sign * crossed[0], r, e, depth)
+        found[1, :, c], far_line = gradient(-sign * crossed[1], r, e, depth)
+        steep[:, c] = far_column | far_line
+    return found[0], found[1], steep
 
 
 def plane(v: Vertices, dcolumn: Int, dline: Int, column: ArrayLike, line: ArrayLike) -> Int:
     """Normal and depth (T, 4) at a pixel's centre: vertex 0 and the way from there, rounded once (``shade_plane``)."""
     away_x, away_y = column * ONE + HALF - v.x[:, 0], line * ONE + HALF - v.y[:, 0]
-    way = round(dcolumn * away_x[:, None] + dline * away_y[:, None], k.SUBPIXEL_F)
+    way = round(dcolumn * away_x[:, None] + dline * away_y[:, None], k.SUBPIXEL_F)  # modulo 2^56
     normal = v.normal[:, 0] << k.STEP_F - k.VERTEX_F
     depth = v.depth[:, :1] << k.PLANE_F - k.DEPTH_F
     return wrap(np.concatenate([normal, depth], axis=1) + way, k.STEP_W)
@@ -260,19 +256,22 @@ def scan(v: Vertices, view: View) -> Scanned:
     kept = take(v, index)
     triangle, line, column, count = raster(kept, view)
     hit, at = np.unique(triangle, return_index=True)
-    dcolumn, dline, fits = _setup(kept, view.flat)
-    shown, dcolumn, dline = take(kept, hit), dcolumn[hit], dline[hit]
+    shown = take(kept, hit)
+    dcolumn, dline, far = setup(shown, view.flat)
+    first, steep = plane(shown, dcolumn, dline, column[at], line[at]), far[:, :3].any(axis=1)
+    dcolumn, dline = wrap(dcolumn, k.STEP_W), wrap(dline, k.STEP_W)
     low = np.maximum(line_of(shown.x.min(axis=1)), 0)
     columns = np.minimum(line_of(shown.x.max(axis=1)), view.columns) - low
     lines = np.minimum(line_of(shown.y.max(axis=1)), view.lines) - line[at]
     box = np.stack([column[at], line[at], columns, lines, column[at] - low], axis=-1)
     return Scanned(
         index=index[hit],
-        plane=plane(shown, dcolumn, dline, column[at], line[at]),
+        plane=first,
         dcolumn=dcolumn,
         dline=dline,
         box=box,
-        narrow=(narrow(dcolumn, columns) & narrow(dline, lines)).astype(np.int64),
+        steep=steep.astype(np.int64),
+        narrow=(~steep & narrow(dcolumn, columns) & narrow(dline, lines)).astype(np.int64),
         tag=shown.tag,
         flat=shown.flat,
         triangle=np.searchsorted(hit, triangle),
@@ -282,7 +281,6 @@ def scan(v: Vertices, view: View) -> Scanned:
         faults={"packet": 0} | {name: int(rows.sum()) for name, rows in bad.items()},
         culled=int(culled.sum()),
         empty=len(index) - len(hit),
-        steep=int((~fits[hit]).any(axis=1).sum()),
     )
 
 
@@ -336,7 +334,8 @@ def depth(s: Scanned, memory: Int) -> tuple[Scanned, Int]:
     ended = np.zeros(len(s.index), np.int64)
     ended[s.triangle[run[last]]] = ~seen[last] & ~goes_on[last]
     some = {
-        name: getattr(s, name)[kept] for name in ("index", "plane", "dcolumn", "dline", "box", "narrow", "tag", "flat")
+        name: getattr(s, name)[kept]
+        for name in ("index", "plane", "dcolumn", "dline", "box", "steep", "narrow", "tag", "flat")
     }
     runs = {"triangle": of, "column": column[at], "line": line[at], "count": count}
     return replace(s, **some, **runs, ended=ended[kept]), after
@@ -438,7 +437,7 @@ def frame(view: View, background: ArrayLike, column: Int, line: Int, pixels: Int
 
 def skipped(s: Scanned) -> dict[str, int]:
     """What was left out (``shade_skipped``)."""
-    limit, told = (1 << 16) - 1, s.faults | {"culled": s.culled, "empty": s.empty, "steep": s.steep}
+    limit, told = (1 << 16) - 1, s.faults | {"culled": s.culled, "empty": s.empty}
     return {name: min(count, limit) for name, count in told.items()}
 
 

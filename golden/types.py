@@ -352,11 +352,11 @@ SITE = Struct(
 )
 PAIR = Struct(
     "pair_t",
-    "increments of a component: S2.29 of a normal, S1.30 of a depth",
+    "increments of a component: S10.29 of a normal, S9.30 of a depth, modulo their widths",
     (
-        Field("column", k.STEP_W, "", "S2.29"),
-        Field("line", k.STEP_W, "", "S2.29"),
-        Field("steep", 1, "one of them does not fit; both are 0"),
+        Field("column", k.GROWTH_W, "", "S10.29"),
+        Field("line", k.GROWTH_W, "", "S10.29"),
+        Field("steep", 1, "one of them is not in S2.29, S1.30"),
     ),
 )
 PLANE = Struct(
@@ -387,6 +387,7 @@ SURFACE = Struct(
         Field("left", k.PLACE_W, "columns of the box on the left of the first pixel"),
         Field("tag", k.TAG_W, ""),
         Field("flat", 1, ""),
+        Field("steep", 1, "an increment of its normal is not in S2.29: what stands here is it modulo 8"),
     ),
 )
 BEGUN = Struct(
@@ -434,12 +435,11 @@ FATE = Struct(
         Field("culled", 1, "left out: seen from the side that is culled"),
         Field("outside", 1, "left out: outside of the frame"),
         Field("between", 1, "left out: between the centres of pixels"),
-        Field("steep", 1, "drawn, but an increment does not fit: its component is constant"),
     ),
 )
 SKIPPED = Struct(
     "skipped_t",
-    "how many triangles and packets were skipped since reset, or drawn flat, each saturating",
+    "how many triangles and packets were skipped since reset, each saturating",
     tuple(
         Field(name, 16, meaning)
         for name, meaning in (
@@ -449,7 +449,6 @@ SKIPPED = Struct(
             ("area", "no area"),
             ("culled", "seen from the side that is culled"),
             ("empty", "without a pixel in the frame"),
-            ("steep", "drawn with a constant component, as its increment does not fit"),
         )
     ),
 )

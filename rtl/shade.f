@@ -58,6 +58,8 @@ raster/shade_cross.sv
 raster/shade_reciprocal.sv
 raster/shade_gradient.sv
 raster/shade_edges.sv
+raster/shade_setup_box.sv
+raster/shade_setup_turns.sv
 raster/shade_setup_factors.sv
 raster/shade_setup_area.sv
 raster/shade_setup.sv

@@ -169,6 +169,7 @@ package shade_pkg;
 
   // triangles
   localparam int SUBPIXEL_F = 8;  // a vertex stands on a grid of 1/256 pixel
+  localparam int GROWTH_W = 40;  // increments of a normal, S10.29, of a depth, S9.30: a way from a vertex has 8 fraction bits
   localparam int COORDINATE_W = 24;  // S15.8: vertices up to 32768 pixels from the frame's first pixel
   localparam int DEPTH_F = 24;  // depth of a vertex and of a pixel, U0.24 in [0, 1)
   localparam int VERTEX_F = 16;  // components of a vertex' normal, S0.16 in [-1, 1)
@@ -276,10 +277,10 @@ package shade_pkg;
   localparam int LATENCY_FDIFF = 6;  // two shifter levels, two adder levels, the state, the rounding
   localparam int LATENCY_FIFO = 2;  // memory, output register
   localparam int LATENCY_FIFO_BLOCK = 3;  // one more
-  localparam int LATENCY_CROSS = 4;  // products, difference, sum
+  localparam int LATENCY_CROSS = 4;  // product, sum
   localparam int LATENCY_EXPONENT = 4;  // four shifter levels
-  localparam int LATENCY_RECIPROCAL = 15;  // three times m, two bits of the quotient a clock, rounding
-  localparam int LATENCY_GRADIENT = 8;  // three shifter levels, product, rounding, range, pair
+  localparam int LATENCY_RECIPROCAL = 24;  // a bit of the quotient a clock, rounding
+  localparam int LATENCY_GRADIENT = 9;  // the sum, three shifter levels, product, two turns of the sum, pair
   localparam int LATENCY_RSQRT = 10;  // two shifter levels, the table, two steps of Horner's scheme
   localparam int LATENCY_NORMALIZE = 19;  // squares, sums, 1/root, shift, products
   localparam int LATENCY_UNIT = 19;  // squares, sums, 1/root, shift, products
@@ -466,16 +467,16 @@ package shade_pkg;
   localparam int EDGE_BITS = 127;
   localparam int WALKED_BITS = 39;
   localparam int SITE_BITS = 24;
-  localparam int PAIR_BITS = 65;
+  localparam int PAIR_BITS = 81;
   localparam int PLANE_BITS = 128;
   localparam int SPOT_BITS = 88;
-  localparam int SURFACE_BITS = 463;
-  localparam int BEGUN_BITS = 631;
+  localparam int SURFACE_BITS = 464;
+  localparam int BEGUN_BITS = 632;
   localparam int DEEP_BITS = 48;
   localparam int TESTED_BITS = 50;
   localparam int VIEW_BITS = 29;
-  localparam int FATE_BITS = 8;
-  localparam int SKIPPED_BITS = 112;
+  localparam int FATE_BITS = 7;
+  localparam int SKIPPED_BITS = 96;
   localparam int RGB8_BITS = 24;
   localparam int LOBE_BITS = 64;
   localparam int CHORD_BITS = 32;
@@ -693,11 +694,11 @@ package shade_pkg;
     logic [11:0] column;
   } site_t;
 
-  // increments of a component: S2.29 of a normal, S1.30 of a depth
+  // increments of a component: S10.29 of a normal, S9.30 of a depth, modulo their widths
   typedef struct packed {
-    logic steep;  // one of them does not fit; both are 0
-    logic signed [31:0] line;  // S2.29
-    logic signed [31:0] column;  // S2.29
+    logic steep;  // one of them is not in S2.29, S1.30
+    logic signed [39:0] line;  // S10.29
+    logic signed [39:0] column;  // S10.29
   } pair_t;
 
   // normal and depth, or what they grow by, modulo 4
@@ -716,6 +717,7 @@ package shade_pkg;
 
   // a triangle whose runs follow on a stream of their own
   typedef struct packed {
+    logic steep;  // an increment of its normal is not in S2.29: what stands here is it modulo 8
     logic flat;
     logic [15:0] tag;
     logic [11:0] left;  // columns of the box on the left of the first pixel
@@ -758,7 +760,6 @@ package shade_pkg;
 
   // what became of a triangle, or of a packet that gives none
   typedef struct packed {
-    logic steep;  // drawn, but an increment does not fit: its component is constant
     logic between;  // left out: between the centres of pixels
     logic outside;  // left out: outside of the frame
     logic culled;  // left out: seen from the side that is culled
@@ -768,9 +769,8 @@ package shade_pkg;
     logic packet;  // skipped: other than three vertices
   } fate_t;
 
-  // how many triangles and packets were skipped since reset, or drawn flat, each saturating
+  // how many triangles and packets were skipped since reset, each saturating
   typedef struct packed {
-    logic [15:0] steep;  // drawn with a constant component, as its increment does not fit
     logic [15:0] empty;  // without a pixel in the frame
     logic [15:0] culled;  // seen from the side that is culled
     logic [15:0] area;  // no area

@@ -50,7 +50,7 @@ module shade_packets (
       column_mask_q[i] <= i == 0 || (last_column >> i) != '0;
       line_mask_q[i]   <= i == 0 || (last_line >> i) != '0;
     end
-    if (!looked_q[1]) narrow_q <= !over(surface.dcolumn.normal, column_mask_q) && !over(surface.dline.normal, line_mask_q);
+    if (!looked_q[1]) narrow_q <= !surface.steep && !over(surface.dcolumn.normal, column_mask_q) && !over(surface.dline.normal, line_mask_q);
     if (rst_i || (valid_i && ready_o && run.last)) looked_q <= '0;
     else if (valid_i) looked_q <= {looked_q[0], 1'b1};
   end

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_plane: normal and depth at the first pixel of a triangle's first run; the runs pass through.
 //
-//   value = vertex 0 + (dcolumn (256 column + 128 - x) + dline (256 line + 128 - y)) / 2^8, to nearest, ties up, modulo 4
+//   value = vertex 0 + (dcolumn (256 column + 128 - x) + dline (256 line + 128 - y)) / 2^8, to nearest, ties up, modulo 2^32
 //
-// pair_i: four pairs of increments a triangle, kept in a FIFO of 64; head_i: vertex 0 and the box; run_i: see
+// pair_i: four pairs of increments a triangle, modulo 2^40 ulp, from here on whole pixels count, and 32 bits of them;
+// kept in a FIFO of 64; head_i: vertex 0 and the box; run_i: see
 // shade_raster, kept in a FIFO of 16 words, run_credit_o frees one. A triangle without a run is dropped.
-// told_o: between, dropped for want of a run; steep, one with a run has an increment that did not fit.
+// told_o: between, dropped for want of a run.
 // surface_valid_o stands until surface_ready_i; the runs of a surface, behind it on run_valid_o, do not wait for it.
 //
-// One 32 x 18 multiplier (two blocks). 15 clocks a triangle, 23 a wide one; a run a clock.
+// One 35 x 18 multiplier (two blocks). 15 clocks a triangle, 23 a wide one; a run a clock.
 // Example: dcolumn = 2^20, dline = 0, x = 128, column = 4 -> value = vertex 0 + 2^22.
 module shade_plane (
   input  logic                clk_i,
@@ -35,7 +36,10 @@ module shade_plane (
   localparam int C_W = shade_pkg::COUNT_W;
   localparam int WAIT_LOG2 = 4;
   localparam int PAIRS_LOG2 = 6;  // deep enough for block RAM
-  localparam int SUM_W = S_W + F;
+  localparam int G_W = shade_pkg::GROWTH_W;
+  localparam int SUM_W = G_W;
+  localparam int IN_W = 35;  // of the multiplier
+  localparam int TOP_W = G_W - IN_W;
 
   // ---- what waits ---------------------------------------------------------------------------------------------------
   logic pair_some, pair_taken, run_some, run_take, unused_pair;
@@ -73,8 +77,8 @@ module shade_plane (
     told_o         <= '0;
     told_o.between <= start && run.none && !rst_i;
     if (start) drop_q <= run.none;
-    steep_q <= !start && (steep_q || (pair_taken && pair.steep));
-    told_o.steep   <= pair_taken && last_component && !drop_q && (steep_q || pair.steep) && !rst_i;
+    if (start) steep_q <= 1'b0;
+    else if (pair_taken && !last_component) steep_q <= steep_q || pair.steep;  // of a normal
     if (start) component_q <= 2'd0;
     else if (pair_taken) component_q <= component_q + 2'd1;
     if (start) part_q <= {head_i.wide, 1'b0};
@@ -98,14 +102,28 @@ module shade_plane (
   logic [1:0][W:0] way_q;  // line, column
   logic [W:0] way;
   logic [17:0] way_part;
-  logic [S_W+17:0] product_q3;
+  logic signed [G_W-1:0] growth;
+  logic [IN_W+17:0] product_q3;
+  logic [TOP_W-1:0] top_q3;
   logic [SUM_W-1:0] sum_q4, base, total;
   logic first_q3, shift_q3, first_q2, shift_q2, first_q1, shift_q1, result;
   assign way      = part_q[0] ? way_q[1] : way_q[0];
   assign way_part = part_q[1] ? {{(35 - W) {way[W]}}, way[W-1:17]} : {way[17] && !surface_large_q, way[16:0]};
-  shade_mul #(.A_W(S_W), .B_W(18), .STAGES(shade_pkg::LATENCY_MUL_IN)) u_mul (
-    .clk_i, .a_i(part_q[0] ? pair.line : pair.column), .b_i(way_part), .p_o(product_q3)
+  assign growth   = part_q[0] ? pair.line : pair.column;
+  shade_mul #(.A_W(IN_W), .B_W(18), .STAGES(shade_pkg::LATENCY_MUL_IN)) u_mul (
+    .clk_i, .a_i(growth[IN_W-1:0]), .b_i(way_part), .p_o(product_q3)
   );
+  // what the multiplier leaves out above: so few bits of the result that a few adders make them
+  logic [TOP_W-1:0] top_q1, way_q1, top_product;
+  always_comb begin
+    top_product = '0;
+    for (int i = 0; i < TOP_W; i++) if (way_q1[i]) top_product = top_product + (top_q1 << i);
+  end
+  always_ff @(posedge clk_i) begin
+    top_q1 <= growth[G_W-1:IN_W] + TOP_W'(growth[IN_W-1]);
+    way_q1 <= way_part[TOP_W-1:0];
+  end
+  shade_delay #(.WIDTH(TOP_W), .DEPTH(shade_pkg::LATENCY_MUL_IN - 1)) u_top (.clk_i, .d_i(top_product), .q_o(top_q3));
   assign base    = first_q3 ? '0 : shift_q3 ? {sum_q4[SUM_W-18:0], 17'd0} : sum_q4;
   assign result  = pair_taken && !drop_q;
   always_ff @(posedge clk_i) begin
@@ -116,7 +134,7 @@ module shade_plane (
     {first_q1, shift_q1} <= {part_q == parts, part_q == 2'b00};
     {first_q2, shift_q2} <= {first_q1, shift_q1};
     {first_q3, shift_q3} <= {first_q2, shift_q2};
-    sum_q4               <= base + product_q3[SUM_W-1:0];
+    sum_q4               <= base + {product_q3[SUM_W-1:IN_W] + top_q3, product_q3[IN_W-1:0]};
     result_q             <= rst_i ? '0 : {result_q[2:0], result};
   end
 
@@ -128,7 +146,7 @@ module shade_plane (
   shade_pkg::site_t site_q;
   logic [shade_pkg::TAG_W:0] tag_q;
   logic unused_low;
-  assign unused_low = ^{total[F-1:0], product_q3[S_W+17:SUM_W]};
+  assign unused_low = ^{total[F-1:0], product_q3[IN_W+17:SUM_W]};
   logic [S_W-1:0] vertex;
   assign vertex = made_q[1] ? (made_q[0] ? vertex_q[3] : vertex_q[2]) : (made_q[0] ? vertex_q[1] : vertex_q[0]);
   assign total  = sum_q4 + {vertex, 1'b1, {(F - 1) {1'b0}}};
@@ -146,10 +164,10 @@ module shade_plane (
       tag_q     <= {head_i.corner.flat, head_i.corner.tag};
     end
     if (result_q[3]) value_q <= {total[SUM_W-1:F], value_q[3:1]};
-    if (pair_taken) {dline_q, dcolumn_q} <= {pair.line, dline_q[3:1], pair.column, dcolumn_q[3:1]};
+    if (pair_taken) {dline_q, dcolumn_q} <= {pair.line[S_W-1:0], dline_q[3:1], pair.column[S_W-1:0], dcolumn_q[3:1]};
     made_q          <= start ? 2'd0 : made_q + 2'(result_q[3]);
     surface_valid_o <= !rst_i && ((result_q[3] && made_q == 2'd3) || (surface_valid_o && !surface_ready_i));
   end
 
-  assign surface_o = {tag_q, left_q, lines_q, columns_q, site_q, dline_q, dcolumn_q, value_q};
+  assign surface_o = {steep_q, tag_q, left_q, lines_q, columns_q, site_q, dline_q, dcolumn_q, value_q};
 endmodule

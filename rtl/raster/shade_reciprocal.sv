@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_reciprocal: 1/a = r 2^-17 2^-e for an integer a, 1 <= a < 2^51: range reduction, then a division bit by bit.
 //
-//   a_i  U51.0         with start_i, at most every 10 clocks
+//   a_i  U51.0         with start_i, at most every 19 clocks
 //   e_o  U6            place of the highest bit of a, LATENCY_EXPONENT = 4 clocks after start_i; holds
-//   r_o  U0.17         LATENCY_RECIPROCAL = 15 clocks after start_i; holds until the next one
+//   r_o  U0.17         LATENCY_RECIPROCAL = 24 clocks after start_i; holds until the next one
 //
 //   m = a 2^-e         U1.19, cut            r = 1/m to nearest, ties up, at most 1 - 2^-17
 //
-// Relative error between -2^-17 and 2^-17 + 2^-19. No multiplier: two quotient bits a clock.
+// Relative error between -2^-17 and 2^-17 + 2^-19. No multiplier: a bit of the quotient a clock.
 // Example: a = 3 -> e = 1, m = 1.5, r = 0.66667 (87381).
 module shade_reciprocal (
   input  logic                                clk_i,
@@ -54,36 +54,22 @@ module shade_reciprocal (
   end
   assign e_o = 6'(A_W - 1) - shift_q;
 
-  // ---- 1/m: remainders of 2^(M_W-1) / m, two bits of the quotient a clock, one more than r has ---------------------------
+  // ---- 1/m: remainders of 2^(M_W-1) / m, a bit of the quotient a clock, one more than r has ------------------------------
   logic [M_W-1:0] rest_q;
-  logic [M_W+1:0] triple_q, four;
-  logic [M_W+2:0] less_1, less_2, less_3;  // with a borrow
+  logic [M_W:0] twice;
+  logic [M_W+1:0] less;  // with a borrow
   logic [R_F:0] quotient_q, rounded;
-  logic [1:0] digit;
-  logic [3:0] left_q;
-  logic first_q;
-  assign four     = {rest_q, 2'b00};
-  assign less_1   = {1'b0, four} - {3'b000, m_q4};
-  assign less_2   = {1'b0, four} - {2'b00, m_q4, 1'b0};
-  assign less_3   = {1'b0, four} - {1'b0, triple_q};
-  assign digit    = !less_3[M_W+2] ? 2'd3 : !less_2[M_W+2] ? 2'd2 : {1'b0, !less_1[M_W+2]};
-  assign rounded  = {1'b0, quotient_q[R_F:1]} + (R_F + 1)'(quotient_q[0]);
+  logic [4:0] left_q;
+  assign twice   = {rest_q, 1'b0};
+  assign less    = {1'b0, twice} - {2'b00, m_q4};
+  assign rounded = {1'b0, quotient_q[R_F:1]} + (R_F + 1)'(quotient_q[0]);
   always_ff @(posedge clk_i) begin
-    triple_q <= {2'b00, m_q4} + {1'b0, m_q4, 1'b0};
-    first_q  <= load_q;
     if (load_q) rest_q <= M_W'(1) << (M_W - 1);
-    else begin
-      case (digit)
-        2'd0: rest_q <= four[M_W-1:0];
-        2'd1: rest_q <= less_1[M_W-1:0];
-        2'd2: rest_q <= less_2[M_W-1:0];
-        default: rest_q <= less_3[M_W-1:0];
-      endcase
-    end
-    quotient_q <= {quotient_q[R_F-2:0], digit};
-    left_q     <= first_q ? 4'd9 : left_q - 4'(left_q != 4'd0);
-    if (left_q == 4'd1 && !first_q) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
+    else rest_q <= less[M_W+1] ? twice[M_W-1:0] : less[M_W-1:0];
+    quotient_q <= {quotient_q[R_F-1:0], !less[M_W+1]};
+    left_q     <= load_q ? 5'(R_F + 2) : left_q - 5'(left_q != 5'd0);
+    if (left_q == 5'd1) r_o <= rounded[R_F] ? '1 : rounded[R_F-1:0];
   end
   logic unused_less;
-  assign unused_less = ^{less_1[M_W+1:M_W], less_2[M_W+1:M_W], less_3[M_W+1:M_W]};
+  assign unused_less = less[M_W];
 endmodule

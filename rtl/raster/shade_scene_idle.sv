@@ -24,9 +24,9 @@ module shade_scene_idle (
   logic [TRIANGLES_W-1:0] triangles_q;
   logic [PIXELS_W-1:0] pixels_q;
   logic [3:0] gone;
-  logic [6:0] ends;  // steep ones go on
+  logic [6:0] ends;
   logic [5:0] still_q;
-  assign ends = {told_i.packet, told_i.range, told_i.normal, told_i.area, told_i.culled, told_i.outside, told_i.between};
+  assign ends = told_i;
   assign gone = 4'($countones(ends)) + 4'(end_i);
   always_ff @(posedge clk_i) begin
     triangles_q <= triangles_q + TRIANGLES_W'(take_i) - TRIANGLES_W'(gone);
@@ -40,8 +40,6 @@ module shade_scene_idle (
       idle_o      <= 1'b0;
     end
   end
-  logic unused_steep;
-  assign unused_steep = told_i.steep;
   shade_assert u_triangles (.clk_i, .rst_i, .holds_i(TRIANGLES_W'(gone) <= triangles_q));
   shade_assert u_pixels (.clk_i, .rst_i, .holds_i(!pixel_i || pixels_q != '0));
 endmodule

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_setup_area: what becomes of a triangle: its area tells the side that is seen, and its reciprocal the increments.
 //
-//   sum_i           twice the area, S52.0, with valid_i; outside_i: no pixel of the frame is in the box
+//   sum_i           twice the area, S51.0, with valid_i; outside_i: no pixel of the frame is in the box
 //   drop_o          it is left out, and why: told_o (area, culled, outside), a clock later
 //   good_o          it goes on: minus_o, the area was negative, from the next clock on; e_o, r_o: see shade_reciprocal
 //
-// Latency 1 clock; of e_o 5, of r_o 16 clocks. Example: sum = -3, nothing culled -> minus 1, e 1, r 0.66667.
+// Latency 1 clock; of e_o 5, of r_o 25 clocks. Example: sum = -3, nothing culled -> minus 1, e 1, r 0.66667.
 module shade_setup_area (
   input  logic                               clk_i,
   input  logic                               rst_i,

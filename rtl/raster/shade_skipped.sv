@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shade_skipped: counts triangles and packets that were skipped or drawn flat, each kind on its own, since reset.
+// shade_skipped: counts triangles and packets that were skipped, each kind on its own, since reset.
 //
 // told_i: a bit a kind, for one clock each; skipped_o: numbers that stay at 2^16 - 1. outside and between count as empty.
 // Latency 1 clock. Example: culled in three clocks -> skipped_o.culled = 3.
@@ -13,7 +13,7 @@ module shade_skipped (
   logic [KINDS-1:0][15:0] count_q;
   logic [KINDS-1:0][1:0] more;
   assign more = {
-    {1'b0, told_i.steep}, {1'b0, told_i.outside} + {1'b0, told_i.between}, {1'b0, told_i.culled}, {1'b0, told_i.area},
+    {1'b0, told_i.outside} + {1'b0, told_i.between}, {1'b0, told_i.culled}, {1'b0, told_i.area},
     {1'b0, told_i.normal}, {1'b0, told_i.range}, {1'b0, told_i.packet}
   };
   always_ff @(posedge clk_i) begin

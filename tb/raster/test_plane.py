@@ -58,7 +58,10 @@ async def triangles(bench: Bench, gap: float, stall: float) -> None:
         )
         for i in range(len(v))
     ]  # fmt: skip
-    pairs = [word("pair_t", column=s.dcolumn[i, c], line=s.dline[i, c]) for i in range(len(v)) for c in range(4)]
+    column, line, steep = golden.setup(v)
+    pairs = [
+        word("pair_t", column=column[i, c], line=line[i, c], steep=steep[i, c]) for i in range(len(v)) for c in range(4)
+    ]
     walked = [bits for (bits,) in runs(s)]
     cocotb.start_soon(heads.send([(bits,) for bits in sized], gap))
     cocotb.start_soon(pulses(bench, "pair_valid_i", "pair_i", pairs, 3, surfaces.words, 4))
@@ -71,5 +74,5 @@ async def triangles(bench: Bench, gap: float, stall: float) -> None:
         for name, wanted in (("value", s.plane), ("dcolumn", s.dcolumn), ("dline", s.dline)):
             for c, axis in enumerate(AXES):
                 bench.equal(found[f"{name}.{axis}"], int(wanted[i, c]), f"{name}.{axis} of {i}", k.STEP_W)
-        box = (found["columns"], found["lines"], found["left"], found["tag"])
-        bench.equal(box == (*s.box[i, 2:], s.tag[i]), True, f"box of {i}")
+        box = (found["columns"], found["lines"], found["left"], found["tag"], found["steep"])
+        bench.equal(box == (*s.box[i, 2:], s.tag[i], s.steep[i]), True, f"box of {i}")

@@ -110,7 +110,7 @@ async def triangles(bench: Bench, gap: float, stall: float, cull: int) -> None:
         bench.equal(told[name], int(number), name)
     bench.equal(len(shapes.words), 3 * len(drawn), "edges")
     bench.equal(len(pairs.words), 4 * len(drawn), "pairs")
-    column, line = golden.setup(drawn)
+    column, line, steep = golden.setup(drawn)
     for i in range(len(drawn)):
         for j, wanted in enumerate(edges(drawn, i)):
             edge = fields("edge_t", shapes.words[3 * i + j][0])
@@ -118,7 +118,8 @@ async def triangles(bench: Bench, gap: float, stall: float, cull: int) -> None:
             bench.equal(shown == {name: int(wanted[name]) for name in shown}, True, f"edge {j} of {i}")
         for c in range(golden.COMPONENTS):
             pair = fields("pair_t", pairs.words[4 * i + c][0])
-            bench.equal(pair["column"] == column[i, c] and pair["line"] == line[i, c], True, f"pair {c} of {i}")
+            wanted = (column[i, c], line[i, c], steep[i, c])
+            bench.equal((pair["column"], pair["line"], pair["steep"]) == wanted, True, f"pair {c} of {i}")
         head = fields("sized_t", heads.words[i][0])
         wanted = {f"corner.{name}": int(value) for name, value in corner(drawn, i).items()}
         bench.equal(all(head[name] == value for name, value in wanted.items()), True, f"vertex 0 of {i}")

@@ -109,11 +109,11 @@ def test_bad_input() -> None:
     assert all(wanted.faults[name] > 10 for name in ("range", "normal", "area"))
 
 
-def test_steep_ones_are_counted() -> None:
-    """Slivers whose increments do not fit are drawn with a constant component, and told."""
+def test_steep_ones() -> None:
+    """Slivers whose increments are beyond S2.29, up to millions a pixel: drawn as right as all others."""
     v, view = triangles(np.random.default_rng(SEED), "sliver", 500), golden.View(128, 128, k.CULL_NONE)
     same(v, view)
-    assert golden.scan(v, view).steep > 20
+    assert golden.scan(v, view).steep.sum() > 20
 
 
 def test_packets_cut_short_or_too_long() -> None:
@@ -162,7 +162,7 @@ def test_rate_on_the_head(size: int, rate: float) -> None:
     assert made.lines.count.sum() / (free - made.given[0] + 1) >= rate
 
 
-@pytest.mark.parametrize(("side", "clocks"), [(1, 24), (4, 24), (14, 36), (45, 98)])
+@pytest.mark.parametrize(("side", "clocks"), [(1, 25), (4, 25), (14, 36), (45, 98)])
 def test_clocks_of_a_triangle(side: int, clocks: int) -> None:
     """Right-angled triangles of 1, 10, 105 and 1035 pixels: a clock a line, and one as the long edge moves a column."""
     x = np.tile(np.int64([[128, 128 + 256 * side, 128]]), (500, 1))
@@ -182,7 +182,7 @@ def test_a_triangle_alone_equals_one_in_a_stream() -> None:
 
 
 def test_a_frame_by_vertices() -> None:
-    """The core shades what shade_spans scanned: 0 mismatches; steep triangles, constant here, set the error."""
+    """The core shades what shade_spans scanned: 0 mismatches, as small an error as by the host."""
     told = frame.render(frame.Settings(camera=Camera(size=96), scan="rtl")).report
     assert (told["scan"], told["mismatches"], told["coverage_mismatches"], told["depth_mismatches"]) == ("rtl", 0, 0, 0)
     assert told["nmse"] < 1e-6

@@ -39,6 +39,7 @@ def surfaces(s: golden.Scanned) -> list[tuple[int]]:
             "left": left,
             "tag": s.tag[i],
             "flat": s.flat[i],
+            "steep": s.steep[i],
         }
         found.append((word("surface_t", **values),))
     return found
@@ -61,7 +62,7 @@ def begun(s: golden.Scanned) -> list[tuple[int]]:
         values |= {f"surface.{name}.{axis}": v[of, c] for c, axis in enumerate(AXES)}
     box = zip(("site.column", "site.line", "columns", "lines", "left"), s.box[of].T, strict=True)
     values |= {f"surface.{name}": v for name, v in box}
-    values |= {f"surface.{name}": getattr(s, name)[of] for name in ("tag", "flat")}
+    values |= {f"surface.{name}": getattr(s, name)[of] for name in ("tag", "flat", "steep")}
     last = np.r_[of[1:] != of[:-1], True]
     values |= {"run.column": s.column, "run.line": s.line, "run.count": s.count, "run.last": last, "run.none": 0 * last}
     return [(bits,) for bits in whole(BEGUN, values | {"first": np.r_[True, of[1:] != of[:-1]]})]
@@ -76,7 +77,8 @@ def cut(rng: np.random.Generator, s: golden.Scanned) -> golden.Scanned:
     at, count = run[opened], np.bincount((np.cumsum(opened) - 1)[kept])
     some, of = np.unique(s.triangle[at], return_inverse=True)
     parts = {
-        name: getattr(s, name)[some] for name in ("plane", "dcolumn", "dline", "box", "narrow", "tag", "flat", "index")
+        name: getattr(s, name)[some]
+        for name in ("plane", "dcolumn", "dline", "box", "steep", "narrow", "tag", "flat", "index")
     }
     return replace(s, **parts, triangle=of, column=s.column[at] + step[opened], line=s.line[at], count=count)
 

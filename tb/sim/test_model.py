@@ -352,26 +352,6 @@ def test_no_answer(toy: Callable) -> None:
         deaf.run(x_i=1, reads=[8], patience=100)
 
 
-@pytest.mark.parametrize(
-    ("access", "told"),
-    [
-        ({"writes": {0x40: 1 << 32}}, "word 0x100000000 at offset 0x40, allowed 0 .. 0xffffffff at 0 .. 0xfff"),
-        ({"writes": {0x40: -1}}, "word -0x1 at offset 0x40"),
-        ({"writes": {0x1000: 1}}, "word 0x1 at offset 0x1000"),
-        ({"reads": [-4]}, "word 0x0 at offset -0x4"),
-    ],
-)
-def test_accesses_out_of_range(access: dict, told: str) -> None:
-    refused(lambda: sim.load("shade_registers").run(**IDLE, **access), f"shade_registers: {told}")
-
-
-@pytest.mark.parametrize("access", [{"writes": {0: 1}}, {"reads": [0]}])
-def test_no_registers(third: sim.Model, access: dict) -> None:
-    refused(
-        lambda: third.run(x_i=1, **access), "shade_third: writes or reads given, but it has no registers on s_axil_*"
-    )
-
-
 def test_again_with_registers() -> None:
     """The command to paste writes them too."""
     file = sim.load("shade_registers")
@@ -434,41 +414,46 @@ def refused(call: Callable[[], object], told: str) -> None:
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("value", "told"),
-    [
-        (1 << 17, "131072 .. 131072 given, allowed -131072 .. 131071"),
-        (-(1 << 17) - 1, "-131073 .. -131073 given"),
-        ([0, 1 << 40], "0 .. 1099511627776 given"),
-        (np.uint64(2**64 - 1), "18446744073709551615 given"),
-        (1 << 70, "object given, allowed integers"),
-        (1.0, "float64 given, allowed integers"),
-        ([float("nan")], "float64 given"),
-        ([], "float64 given"),
-        ("1", "<U1 given"),
-        (None, "object given"),
-        ([[1], [2]], "array of shape (2, 1) given, allowed (rows) or a number"),
-    ],
-)
-def test_values_out_of_range(third: sim.Model, value: object, told: str) -> None:
-    refused(lambda: third.run(x_i=value), f"shade_third.x_i: {told}" if told[0] not in "-1" else told)
+THIRD, SPAN, FILE = ("shade_third", {"WIDTH": 18}), ("shade_poly_span", {}), ("shade_registers", {})
+COEF = ("shade_coef_b", {})
+NODES = {"degree_i": 3, "i1_i": 0, "i2_i": [1], "i3_i": [1, 2]}
+NO_FILE = "shade_third: writes or reads given, but it has no registers on s_axil_*"
+RUNS = [
+    *((THIRD, {"x_i": value}, told) for value, told in (
+        (1 << 17, "shade_third.x_i: 131072 .. 131072 given, allowed -131072 .. 131071"),
+        (-(1 << 17) - 1, "-131073 .. -131073 given"), ([0, 1 << 40], "0 .. 1099511627776 given"),
+        (np.uint64(2**64 - 1), "18446744073709551615 given"), (1 << 70, "object given, allowed integers"),
+        (1.0, "float64 given, allowed integers"), ([float("nan")], "float64 given"), ([], "float64 given"),
+        ("1", "<U1 given"), (None, "object given"),
+        ([[1], [2]], "shade_third.x_i: array of shape (2, 1) given, allowed (rows) or a number"),
+    )),
+    *((SPAN, {"s_axis_span_tdata": value}, told) for value, told in (
+        (0, "array of shape () given, allowed (rows, 6) or (6,)"), (np.zeros(5, int), "shape (5,)"),
+        (np.zeros((3, 1), int), "shape (3, 1)"), (np.zeros((3, 7), int), "shape (3, 7)"),
+        (np.zeros((2, 3, 6), int), "shape (2, 3, 6)"), (np.full(6, -1), "-1 .. -1 given, allowed 0 .. 4294967295"),
+        (np.full(6, 1 << 32), "allowed 0 .. 4294967295"), (np.zeros(6), "float64 given"),
+    )),
+    (THIRD, {}, "shade_third: inputs given, needed x_i"),
+    (THIRD, {"y_i": 1}, "shade_third: inputs y_i given, needed x_i"),
+    (THIRD, {"x_i": 1, "valid_i": 1}, "inputs valid_i, x_i given, needed x_i"),
+    (THIRD, {"x_i": 1, "clk_i": 1}, "needed x_i"),
+    (COEF, NODES | {"i4_i": [1, 2, 3]}, "rows differ, degree_i 1, i1_i 1, i2_i 1, i3_i 2, i4_i 3"),
+    (COEF, NODES | {"i4_i": np.zeros(0, int)}, "rows differ"),
+    *((THIRD, {"x_i": 1, option: chance}, f"{option}: {chance} is out of range, allowed is 0")
+      for option in ("in_gap", "out_stall") for chance in (-0.1, 1.01, float("nan"), float("inf"))),
+    (THIRD, {"x_i": 1, "out_stall": 0.5}, "out_stall: 0.5 is out of range, allowed is 0, shade_third cannot wait"),
+    (THIRD, {"x_i": 1, "writes": {0: 1}}, NO_FILE),
+    (THIRD, {"x_i": 1, "reads": [0]}, NO_FILE),
+    (FILE, IDLE | {"writes": {0x40: 1 << 32}}, "word 0x100000000 at offset 0x40, allowed 0 .. 0xffffffff at 0 .. 0xf"),
+    (FILE, IDLE | {"writes": {0x40: -1}}, "shade_registers: word -0x1 at offset 0x40"),
+    (FILE, IDLE | {"writes": {0x1000: 1}}, "word 0x1 at offset 0x1000"),
+    (FILE, IDLE | {"reads": [-4]}, "word 0x0 at offset -0x4"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("value", "told"),
-    [
-        (0, "array of shape () given, allowed (rows, 6) or (6,)"),
-        (np.zeros(5, int), "shape (5,)"),
-        (np.zeros((3, 1), int), "shape (3, 1)"),
-        (np.zeros((3, 7), int), "shape (3, 7)"),
-        (np.zeros((2, 3, 6), int), "shape (2, 3, 6)"),
-        (np.full(6, -1), "-1 .. -1 given, allowed 0 .. 4294967295"),
-        (np.full(6, 1 << 32), "allowed 0 .. 4294967295"),
-        (np.zeros(6), "float64 given"),
-    ],
-)
-def test_rows_of_wide_ports(span: sim.Model, value: np.ndarray, told: str) -> None:
-    refused(lambda: span.run(s_axis_span_tdata=value), told)
+@pytest.mark.parametrize(("of", "run", "told"), RUNS)
+def test_what_run_refuses(of: tuple[str, dict], run: dict, told: str) -> None:
+    refused(lambda: sim.load(of[0], **of[1]).run(**run), told)
 
 
 def test_last_word_of_wide_ports(toy: Callable) -> None:
@@ -485,30 +470,8 @@ def test_last_word_of_wide_ports(toy: Callable) -> None:
     )
 
 
-def test_names_and_lengths(third: sim.Model) -> None:
-    refused(lambda: third.run(), "shade_third: inputs  given, needed x_i".replace("  ", " "))
-    refused(lambda: third.run(y_i=1), "shade_third: inputs y_i given, needed x_i")
-    refused(lambda: third.run(x_i=1, valid_i=1), "inputs valid_i, x_i given, needed x_i")
-    refused(lambda: third.run(x_i=1, clk_i=1), "needed x_i")
-    coef = sim.load("shade_coef_b")
-    rest = {"degree_i": 3, "i1_i": 0, "i2_i": [1]}
-    refused(
-        lambda: coef.run(**rest, i3_i=[1, 2], i4_i=[1, 2, 3]), "rows differ, degree_i 1, i1_i 1, i2_i 1, i3_i 2, i4_i 3"
-    )
-    refused(lambda: coef.run(**rest, i3_i=[1, 2], i4_i=np.zeros(0, int)), "rows differ")
-
-
-@pytest.mark.parametrize("chance", [-0.1, 1.01, float("nan"), float("inf")])
-@pytest.mark.parametrize("option", ["in_gap", "out_stall"])
-def test_probabilities(third: sim.Model, option: str, chance: float) -> None:
-    refused(lambda: third.run(x_i=1, **{option: chance}), f"{option}: {chance} is out of range, allowed is 0")
-
-
-def test_who_cannot_wait(third: sim.Model, toy: Callable) -> None:
-    """Without a ready input the module would lose what nobody takes; a pipeline takes a row whenever one is offered."""
-    refused(
-        lambda: third.run(x_i=1, out_stall=0.5), "out_stall: 0.5 is out of range, allowed is 0, shade_third cannot wait"
-    )
+def test_a_pipeline_takes_whatever_is_offered() -> None:
+    """Without a valid input, with gaps."""
     run = sim.load("shade_delay", WIDTH=9, DEPTH=3).run(d_i=np.arange(99), latency=3, in_gap=0.5)
     assert run.q_o.tolist() == list(range(99)) and set(run.given - run.taken) == {3} and run.clocks > 120
 

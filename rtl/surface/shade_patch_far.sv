@@ -92,7 +92,7 @@ module shade_patch_far #(
   end
 
   // ---- products: the increments by the way to the middle, lengths a, b by the half of a side and by 2 pixels -------------------
-  logic signed [W-1:0] part_of, by;
+  logic signed [W-1:0] part_of, by, factor;
   logic signed [COUNT_W:0] halves;
   logic [3:0] exp;
   logic signed [COUNT_W+PART_F-1:0] shifted;
@@ -114,7 +114,8 @@ module shade_patch_far #(
   end
   assign shifted = $signed({halves, (PART_F - 1)'(0)}) >>> exp;
   assign by      = tail_q == NONE ? part_of : $signed({1'b0, norm_q[W:CUT]});
-  shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(by), .b_i(shifted[W-1:0]), .p_o(product));
+  assign factor  = shifted[W-1:0];
+  shade_mul #(.A_W(W), .B_W(W)) u_mul (.clk_i, .a_i(by), .b_i(factor), .p_o(product));
   localparam int A_W = 2 * W - PART_F;
   logic [A_W-1:0] size;
   assign size = product[2*W-1:PART_F];

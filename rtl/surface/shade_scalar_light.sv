@@ -59,11 +59,13 @@ module shade_scalar_light #(
   assign y = {h[X_F], ~h[X_F-1:0]};  // 1 - h, less an ulp of h; of h < 0 it does not matter
 
   // ---- products -----------------------------------------------------------------------------------------------------
-  logic signed [W-1:0] factor;
+  logic signed [W-1:0] factor, a_high, y_low;
   logic signed [2*W-1:0] grown, bent;
   assign factor = rho_i[RHO_F-:W];
-  shade_mul #(.A_W(W), .B_W(W)) u_grown (.clk_i, .a_i(a[A_W-1-:W]), .b_i(factor), .p_o(grown));
-  shade_mul #(.A_W(W), .B_W(W)) u_bent (.clk_i, .a_i(y[X_F-:W]), .b_i(factor), .p_o(bent));
+  assign a_high = a[A_W-1-:W];
+  assign y_low  = y[X_F-:W];
+  shade_mul #(.A_W(W), .B_W(W)) u_grown (.clk_i, .a_i(a_high), .b_i(factor), .p_o(grown));
+  shade_mul #(.A_W(W), .B_W(W)) u_bent (.clk_i, .a_i(y_low), .b_i(factor), .p_o(bent));
   logic signed [A_W-1:0] a_p;
   logic signed [X_W-1:0] difference_q, difference_p;
   logic dark_p;

@@ -107,25 +107,14 @@ module bench;
     clocks <= clocks + 1;
     shown <= clocks >= 4 && i < 2999;
     if (shown) i <= i == 2999 ? i : i + 1;
-    if (clocks >= 8 && clocks < 3000) $display("%0d", symbol);
+    if (clocks >= 4 && clocks < 3000) $display("%0d", symbol);
     if (clocks == 3000) $finish;
   end
 endmodule
 """)
     program = tools.verilator().program
-    options = [
-        "--cc",
-        "--main",
-        "--exe",
-        "--timing",
-        "-Wno-fatal",
-        "--prefix",
-        "Vb",
-        "--top-module",
-        "bench",
-        "--Mdir",
-        "o",
-    ]
+    options = ["--cc", "--main", "--exe", "--timing", "-Wno-fatal", "--prefix", "Vb", "--top-module", "bench"]
+    options += ["--Mdir", "o"]
     verilate.run([program, *options, ulx3s.HERE / "rtl" / "board_tmds.sv", bench], tmp_path)
     verilate.run(["make", "-s", "-C", "o", "-f", "Vb.mk", *ulx3s.COMPILER, "Vb"], tmp_path)
     done = subprocess.run([tmp_path / "o" / "Vb"], cwd=tmp_path, capture_output=True, text=True, check=True)

@@ -91,8 +91,10 @@ module shade_scalar_light #(
   localparam int OUT_W = SIGNED == 1 ? W : PIXEL_W;
   logic [OUT_W-1:0] diffuse_q, diffuse;
   if (SIGNED == 1) begin : g_signed
+    logic signed [A_W-1:0] total;
     logic signed [W-1:0] fit;
-    shade_limit #(.WIDTH(A_W), .OUT_W(W)) u_fit (.x_i(total_q[A_W:1]), .y_o(fit));
+    assign total = total_q[A_W:1];
+    shade_limit #(.WIDTH(A_W), .OUT_W(W)) u_fit (.x_i(total), .y_o(fit));
     always_ff @(posedge clk_i) diffuse_q <= fit;
     assign diffuse_o = diffuse;
   end else begin : g_pixel

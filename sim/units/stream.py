@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from polyshade import sim
 from polyshade.golden import contract as k
 from polyshade.golden import core, normal, plan, poly
-from polyshade.golden.types import RECORD, pack, unpack, words
+from polyshade.golden.types import RECORD, STRUCTS, pack, unpack, words
 from polyshade.sim.sources import label
 from polyshade.sim.units.case import FORMS, ONE, Arrays, Case, Real, Result, hexadecimal, mixed
 from polyshade.sim.units.normal import unit_vectors
@@ -568,6 +568,59 @@ def _paint(**parameters: int) -> Stream:
     )  # fmt: skip
 
 
+# ---- runs of triangles to scalars of pixels --------------------------------------------------------------------------
+
+
+def _direct_moves() -> Stream:
+    """Good runs, empty and long ones, some that are not below the one before."""
+
+    def items(rng: Rng, count: np.ndarray, _kind: Hashable) -> Arrays:
+        rows = len(count)
+        run = {name: rng.integers(0, 4, rows) == 0 for name in ("first", "last")}
+        run["first"][0] = True
+        run |= {"column": rng.integers(0, 4096, rows), "line": rng.integers(0, 8, rows).cumsum() % 4096}
+        run |= {"count": rng.choice([0, 1, 5, k.PIXELS_MAX, k.PIXELS_MAX + 1, 8191], rows)}
+        return under("run_i", run | {"tag": rng.integers(0, 1 << k.TAG_W, rows)})
+
+    def golden(i: Arrays) -> Given:
+        run, rows, column, line = structure(i, "run_i"), [], 0, 0
+        for x, y, count, first in zip(*(run[n].tolist() for n in ("column", "line", "count", "first")), strict=True):
+            good = 0 < count <= k.PIXELS_MAX and bool(first or y >= line)
+            move = good and not first
+            rows.append((move * (y - line), move * (x - column), good))
+            if good or first:
+                column, line = x, y + good
+        words = dict(zip(("lines", "columns", "good"), np.array(rows, np.int64).T, strict=True))
+        words |= {name: run[name] for name in ("first", "last", "count", "tag")}
+        return Given(under("moves_o", words), np.arange(len(rows)))
+
+    return Stream(
+        "shade_direct_moves", {}, items, golden, 1, lengths=(1,), through=("ready_i",), held=lambda _, n: 1
+    )  # fmt: skip
+
+
+def _direct_run(**parameters: int) -> Stream:
+    """Sums modulo their widths."""
+    start = {leaf.name: leaf for leaf in STRUCTS["start_t"].leaves()}
+
+    def items(rng: Rng, count: np.ndarray, _kind: Hashable) -> Arrays:
+        values = {name: rng.integers(*leaf.range, len(count), endpoint=True) for name, leaf in start.items()}
+        return under("start_i", values | {"count": count})
+
+    def golden(i: Arrays) -> Given:
+        owner, j = poly.span_walk(i["start_i.count"])
+        at = {name: value[owner] for name, value in structure(i, "start_i").items()}
+        p = at["at.p"] + j * at["p_column"] + j * (j - 1) * at["p_columns"]
+        words = {c: plan.wrap(at[f"at.{c}"] + j * at[f"{c}_column"], start[f"at.{c}"].width) for c in "ah"}
+        words = under("scalars_o", words | {"p": p & (1 << k.DIRECT_P_W) - 1})
+        return Given(words | {"tag_o": at["tag"], "last_o": ends(owner)}, owner)
+
+    return Stream(
+        "shade_direct_run", parameters, items, golden, 1, longest=k.PIXELS_MAX, wakes=1,
+        credits=1 << parameters.get("FIFO_LOG2", k.DIRECT_FIFO_LOG2),
+    )  # fmt: skip
+
+
 SMALL = {"REFLECT": 0, "DIVIDE": 0}
 
 
@@ -587,6 +640,7 @@ def streams() -> Iterator[Stream]:
     yield from (_lane(), _lane("paper", EVALUATOR=k.EVALUATOR_HORNER, **small), _lane(FOLD=6, **small))
     yield from (_lane(FOLD=fold, **small) for fold in (2, 3, 4, 5, 7, 8))
     yield from (_paint(), _paint(FIFO_LOG2=4))
+    yield from (_direct_moves(), _direct_run())
 
 
 def measured() -> dict[str, Stream]:

@@ -162,12 +162,6 @@ def test_errors_of_printed_constants() -> None:
         assert worst(eta, 3 * printed[degree], k.ETA_F) == pytest.approx(error, abs=0.05)
 
 
-def test_midpoint_of_equal_normals() -> None:
-    a = unit_vectors(np.random.default_rng(SEED), 1_000_000)
-    middle = np.stack(normal.midpoint(*a, *a, normal.dot3(*a, *a))[:3])
-    assert np.abs(np.linalg.norm(middle, axis=0) - ONE).max() <= 2
-
-
 def test_nodes_lie_on_the_arc() -> None:
     """Up to 60 degrees every node is within 2.5e-4 of the point that slerp gives; the ends are the ends."""
     rng = np.random.default_rng(SEED)

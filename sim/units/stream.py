@@ -656,9 +656,11 @@ def measured() -> dict[str, Stream]:
 
 
 def cases() -> Iterator[Case]:
-    """The FIFO by NumPy; what else it does: tb/stream/test_fifo.py."""
+    """The FIFO by NumPy, a word on every clock; what else it does: tb/stream/test_fifo.py."""
     same = lambda i: {"data_o": i["data_i"]}  # noqa: E731
-    yield Case(
-        "shade_fifo", "refined", {}, same, same, same, mixed({"data_i": (0, (1 << 32) - 1)}), None, k.LATENCY_FIFO,
-        bound=0, unit_f=0, ordered=True, own_bench=True,
-    )  # fmt: skip
+    for point in ({}, {"LOG2": 1}, {"LOG2": 1, "BLOCK": 1}, {"BLOCK": 1}):
+        yield Case(
+            "shade_fifo", "refined", point, same, same, same, mixed({"data_i": (0, (1 << 32) - 1)}), None,
+            k.LATENCY_FIFO_BLOCK if "BLOCK" in point else k.LATENCY_FIFO, bound=0, unit_f=0, ordered=True,
+            own_bench=True,
+        )  # fmt: skip

@@ -139,16 +139,6 @@ def test_more_spans_than_tags(lanes: int, monkeypatch: pytest.MonkeyPatch) -> No
     assert "counter_mismatches" not in report
 
 
-def test_lanes_draw_the_same() -> None:
-    """In fewer clocks."""
-    one, two, four = (
-        frame.render(frame.Settings(mesh="sphere", camera=Camera(200), lanes=i)) for i in frame.CORE_LANES
-    )
-    for other in (two, four):
-        assert np.array_equal(one.intensity, other.intensity)
-    assert one.report["cycles"] > 1.8 * two.report["cycles"] > 3.2 * four.report["cycles"]
-
-
 def test_a_fault_of_the_rtl_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """From the model's outputs into report, error and picture."""
     settings = frame.Settings(mesh="sphere", camera=Camera(size=40), scan="host")

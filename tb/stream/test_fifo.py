@@ -4,7 +4,6 @@
 import random
 
 import cocotb
-from polyshade.golden import contract as k
 
 from tb.bench import PRESSURE, Bench, Sink, checked, no_path, scramble
 from tb.runner import points, simulate
@@ -76,32 +75,6 @@ async def traffic(bench: Bench, gap: float, stall: float) -> None:
     words = some_words(bench, 1000)
     await writer.write(words, gap)
     await read_back(bench, sink, words)
-
-
-@checked()
-async def latency(bench: Bench) -> None:
-    """A word that finds the FIFO empty shows after the latency; a word a clock goes through."""
-    latency = k.LATENCY_FIFO_BLOCK if bench.parameter("BLOCK") else k.LATENCY_FIFO
-    writer, sink = setup(bench, 0.0)
-    words = some_words(bench, 100)
-    for word in words:
-        await writer.write([word])
-        await bench.tick(random.randrange(4, 8))
-    await read_back(bench, sink, words)
-    for index, (written, read) in enumerate(zip(writer.clocks, sink.clocks, strict=True)):
-        bench.equal(read - written, latency, f"latency of word {index}")
-
-
-@checked()
-async def throughput(bench: Bench) -> None:
-    """A word a clock goes through. Nothing is held up: two places suffice, and the writer waits for no credit."""
-    writer, sink = setup(bench, 0.0)
-    words = some_words(bench, 200)
-    writer.credits = len(words)
-    await writer.write(words)
-    await read_back(bench, sink, words)
-    for clocks in (writer.clocks, sink.clocks):
-        bench.equal(clocks[-1] - clocks[0], len(words) - 1, "clocks from the first word to the last")
 
 
 @checked()

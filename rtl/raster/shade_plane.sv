@@ -148,7 +148,10 @@ module shade_plane (
   logic unused_low;
   assign unused_low = ^{total[F-1:0], product_q3[IN_W+17:SUM_W]};
   logic [S_W-1:0] vertex;
-  assign vertex = made_q[1] ? (made_q[0] ? vertex_q[3] : vertex_q[2]) : (made_q[0] ? vertex_q[1] : vertex_q[0]);
+  always_comb begin
+    vertex = '0;
+    for (int i = 0; i < 4; i++) vertex = vertex | ({S_W{made_q == 2'(i)}} & vertex_q[i]);
+  end
   assign total  = sum_q4 + {vertex, 1'b1, {(F - 1) {1'b0}}};
   localparam int N_UP = shade_pkg::STEP_F - shade_pkg::VERTEX_F;
   localparam int Z_UP = shade_pkg::PLANE_F - shade_pkg::DEPTH_F;

@@ -32,26 +32,29 @@ module shade_setup_factors (
   localparam int F = shade_pkg::SUBPIXEL_F;
   localparam int N_W = shade_pkg::VERTEX_W + 1;
 
-  function automatic logic [W:0] long(input logic [N_W-1:0] x);
-    long = {{(W + 1 - N_W) {x[N_W-1]}}, x};
+  // Gates with a bit of choice for each number, and a sum of them: smaller than multiplexers of so many.
+  function automatic logic [W:0] only(input logic chosen, input logic [W:0] x);
+    only = {(W + 1) {chosen}} & x;
   endfunction
 
-  // both of each pair, the one whose turn it is
-  logic [W:0] v, w, s, f, g, g_q;
-  logic [W:0] face_dx, face_dy, dx, dy, z;
-  logic [2:0][N_W-1:0] n;
-  logic low_q, wide_q;
-  assign face_dx = second_i ? face_dx_i[1] : face_dx_i[0];
-  assign face_dy = second_i ? face_dy_i[0] : face_dy_i[1];
-  assign dx      = second_i ? dx_i[0] : dx_i[1];
-  assign dy      = second_i ? dy_i[0] : dy_i[1];
-  assign z       = second_i ? dz_i[1] : dz_i[0];
-  assign n       = second_i ? dn_i[1] : dn_i[0];
-  assign v = comp_i[1] ? (comp_i[0] ? z : long(n[2])) : long(comp_i[0] ? n[1] : n[0]);
-  assign w = {{(W + 1 - F) {!second_i}}, second_i ? side_i.t : ~side_i.u};
-  assign s = second_i ? side_i.dx : {1'b0, side_i.dy};
-  assign f = face_i ? face_dx : edge_i ? w : v;
-  assign g = face_i ? face_dy : edge_i ? s : line_i ? dx : dy;
+  logic [W:0] f, g, g_q;
+  logic [N_W-1:0] n;
+  logic main, low_q, wide_q;
+  logic [1:0] turn;  // of the first product, of the second
+  assign turn = {second_i, !second_i};
+  assign main = !face_i && !edge_i;
+  always_comb begin
+    n = '0;
+    f = only(!face_i && edge_i, {{(W + 1 - F) {!second_i}}, second_i ? side_i.t : ~side_i.u});
+    g = only(!face_i && edge_i, second_i ? side_i.dx : {1'b0, side_i.dy});
+    for (int i = 0; i < 2; i++) begin
+      for (int c = 0; c < 3; c++) n = n | ({N_W{main && turn[i] && comp_i == 2'(c)}} & dn_i[i][c]);
+      f = f | only(face_i && turn[i], face_dx_i[i]) | only(main && turn[i] && comp_i == 2'd3, dz_i[i]);
+      g = g | only(face_i && turn[1-i], face_dy_i[i]) | only(main && turn[1-i] && line_i, dx_i[i])
+            | only(main && turn[1-i] && !line_i, dy_i[i]);
+    end
+    f = f | {{(W + 1 - N_W) {n[N_W-1]}}, n};
+  end
   always_ff @(posedge clk_i) {p_o, g_q, low_q, wide_q} <= {f, g, low_i, wide_i};
   assign q_o = low_q ? {g_q[17] && !wide_q, g_q[16:0]} : {{(35 - W) {g_q[W]}}, g_q[W-1:17]};
 

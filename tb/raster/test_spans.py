@@ -70,7 +70,12 @@ def test_gaps_and_stalls(in_gap: float, out_stall: float) -> None:
 @pytest.mark.parametrize("size", [64, 300])
 def test_every_pixel_of_a_fan_once(size: int) -> None:
     """Triangles around a point: no pixel twice, none missing between the first and the last of a line."""
-    v = fan(np.random.default_rng([SEED, size]), 200, size)
+    once(np.random.default_rng([SEED, size]), 200, size)
+
+
+def once(rng: np.random.Generator, rows: int, size: int) -> None:
+    """A closed fan of so many triangles: each of its pixels once."""
+    v = fan(rng, rows, size)
     run = same(v, golden.View(size, size, k.CULL_NONE))
     column, line = (run.outputs[f"m_axis_span_tuser.{name}"] for name in ("column", "line"))
     count = run.outputs["m_axis_span_tdata"][:, 6].astype(np.int64) & (1 << k.COUNT_W) - 1

@@ -452,7 +452,7 @@ class Model:
 
 
 _loaded: dict[object, Model] = {}
-_netlist: Callable[[str, dict[str, int]], Path] | None = None
+_netlist: Callable[[str, dict[str, int]], Path | None] | None = None
 
 
 def load(module: str, *, waves: bool | None = None, public: tuple[str, ...] | None = None, **parameters: int) -> Model:
@@ -469,6 +469,7 @@ def load(module: str, *, waves: bool | None = None, public: tuple[str, ...] | No
             raise UserError(f"{module}: {name}={value!r}, allowed integers") from None
     waves = os.environ.get("WAVES", "0") not in ("", "0") if waves is None else waves
     netlist = netlist_of(module, parameters)
+    public = None if netlist else public
     key = (module, tuple(sorted(parameters.items())), waves, public, netlist and netlist.read_bytes())
     if key not in _loaded:
         _loaded[key] = Model(module, parameters, waves=waves, public=public, netlist=netlist)
@@ -481,7 +482,7 @@ def netlist_of(module: str, parameters: dict[str, int]) -> Path | None:
 
 
 @contextlib.contextmanager
-def netlists(netlist: Callable[[str, dict[str, int]], Path]) -> Iterator[None]:
+def netlists(netlist: Callable[[str, dict[str, int]], Path | None]) -> Iterator[None]:
     """Within the block :func:`load` compiles ``netlist(module, parameters)``, a Verilog file, in place of the RTL."""
     global _netlist
     before, _netlist = _netlist, netlist

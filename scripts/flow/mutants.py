@@ -1,26 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
 """``make mutants``: faults in every module that its own tests must see; left in ``build/mutants.json``.
 
-    {"<module>": {generated, killed, equivalent, undecided, survived: [..], seed, named}}
+    {"<module>": {generated, killed, equivalent, undecided, survived: [..], seed, named, seconds}}
 
 Yosys chooses faults in the module's cells: an input or output bit that is inverted, stuck, or inverted where another
 bit is 0 or 1. All of a module stand in one netlist with an input ``mutant_i`` that chooses one, so that they are
 compiled once. A mutant is killed by the module's own tests, the cheapest first:
 
-1. the vectors of its cases in ``sim/units``, of a whole stream for those of ``STREAMS``,
-2. its cocotb bench, or the one of all units with gaps and resets.
+1. the vectors of its cases in ``sim/units``, the items of its stream,
+2. the tests of its file that drive it with NumPy, or those of the module around it,
+3. its cocotb bench, or the one of all units with gaps and resets, up to the first test that fails.
 
 A survivor is set beside the module without a fault: ABC searches for inputs after a reset by which an output differs in
 a clock in which it is valid. Where there are none it is ``equivalent``. The others ``survived``; of these ``undecided``
 had no answer within ``SECONDS``. They count as survivors, as inputs are free there and need not be legal.
 
-``tb/floors.json`` holds what per cent of the mutants that are not equivalent each module's tests must kill; a run over
-all modules with the default seed raises it. ``NAMED`` are faults of the RTL's text that tests once did not see.
+A module whose RTL and tests are as they were when it was judged is not judged again: a run that was interrupted goes
+on where it ended. Each row says how long its judgement took.
+
+``tb/floors.json`` holds what per cent of the mutants that are not equivalent each module's tests must kill; a run with
+the default seed raises those of its modules. ``NAMED`` are faults of the RTL's text that tests once did not see.
 """
 
 from __future__ import annotations
 
+import contextlib
 import inspect
+import io
 import itertools
 import json
 import math
@@ -28,15 +34,18 @@ import os
 import re
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+import pytest
+from _pytest.runner import runtestprotocol
 from polyshade import sim
-from polyshade.golden import contract as k
 from polyshade.golden.material import Material
 from polyshade.scripts.flow import formal, gate, soak, tools
 from polyshade.scripts.report import save
@@ -44,7 +53,6 @@ from polyshade.sim import patch
 from polyshade.sim.errors import UserError
 from polyshade.sim.sources import BUILD, ROOT, Point, label, modules
 from polyshade.sim.units import Case, Stream, cases, streams
-from polyshade.sim.units.stream import pixel_normals, poly_span
 from polyshade.sim.verilate import key_of, once, ports, reached
 from tqdm import tqdm
 
@@ -54,11 +62,24 @@ FLOORS = ROOT / "tb" / "floors.json"
 COUNT = 60  # mutants of a module
 SEED = 1
 SMALL = 3_000_000  # bytes of a netlist with which a search for a difference leaves nothing out
-SECONDS = 15  # of a search for a difference
+SECONDS = 6  # of a search for a difference
+ITEMS = 300  # of a stream
 VECTORS = (2_000, 100_000)  # of a case: for all mutants, for those that live on
 NONE = ("shade_assert", "shade_stable")  # assertions alone: synthesis and mutants leave them out
 CUT = ("shade_mul", "shade_rsqrt", "shade_rsqrt_rom")  # parts that a search for a difference cuts out
 PARTS = "shade_patch"  # the parts of this one are tested in it
+AROUND = {  # the module in which one without a test of its own is tested
+    "shade_setup_factors": "shade_spans",
+    "shade_setup_area": "shade_spans",
+    **dict.fromkeys((f"shade_scene_{part}" for part in ("level", "sweep", "sites", "idle")), "shade_scene"),
+}
+POINTS: dict[str, Point] = {  # at which tests have a module, where its default is none
+    PARTS: {"LANES": 2},
+    "shade_scene": {"COLUMNS_LOG2": 6, "LINES_LOG2": 6, "DOUBLE": 0},
+    "shade_widen": {"IN_W": 8, "OUT_W": 16},
+}
+CLOCKS = 2_000_000  # of a run, after which a mutant hangs
+SLOW = 3.0  # seconds of a test that is left out
 
 
 NAMED: dict[str, dict[str, tuple[str, str]]] = {  # of a module: what is wrong, a text of its source, what replaces it
@@ -87,6 +108,7 @@ class Target:
     top: str
     point: Point
     bench: str = ""
+    file: Path | None = None  # with tests that drive it with NumPy
 
     @property
     def cases(self) -> list[Case]:
@@ -96,21 +118,27 @@ class Target:
 
 def targets() -> list[Target]:
     """Every module with what it is tested by."""
+    known = {stream.module: stream for stream in reversed([*streams()])}
     points = {case.module: case.parameters for case in reversed(cases()) if case.parameters.get("DEPTH") != 0}
-    points |= {stream.module: stream.parameters for stream in reversed([*streams()])}
-    points[PARTS] = {"LANES": 2}
+    points |= {module: stream.parameters for module, stream in known.items()} | POINTS
     found = []
-    for module, path in modules().items():
-        own = ROOT / "tb" / path.parent.name / f"test_{path.stem.removeprefix('shade_')}.py"
+    for module in modules():
+        inner = module.startswith(f"{PARTS}_") and module not in points
+        top = PARTS if inner else AROUND.get(module, module)
+        own, around = (_tests(modules()[name]) for name in (module, top))
         text = own.read_text() if own.exists() else ""
         first = "[default]" if "def test_cocotb(point)" in text else ""
         bench = f"{own.relative_to(ROOT)}::test_cocotb{first}" if "def test_cocotb(" in text else ""
-        if module in {stream.module for stream in streams()}:
+        if module in known:
             bench = f"tb/test_units.py::test_stream_cocotb[{label(module, points[module])}]"
-        inner = module.startswith(f"{PARTS}_") and module not in points
+        driven = around if around.exists() and "sim.load(" in around.read_text() and top != PARTS else None
         if module not in NONE:
-            found.append(Target(module, PARTS if inner else module, points.get(PARTS if inner else module, {}), bench))
+            found.append(Target(module, top, points.get(top, {}), "" if top != module else bench, driven))
     return found
+
+
+def _tests(path: Path) -> Path:
+    return ROOT / "tb" / path.parent.name / f"test_{path.stem.removeprefix('shade_')}.py"
 
 
 class Differs(UserError):
@@ -240,17 +268,19 @@ def _frames(_model: sim.Model) -> bool:
     return True
 
 
-def _equal(stream: Stream, items: int) -> Callable[[sim.Model], bool]:
-    """Items through a module, without pauses and with them: equal?"""
-    pauses = ((), (0.3, 0.3))
-    return lambda model: not any(stream.check(items, 1, *pause, model=model).mismatches for pause in pauses)
+def _equal(stream: Stream) -> Callable[[sim.Model], bool]:
+    """Items of all kinds through a module, without pauses and with them: equal?"""
+    runs = [(pause, kind) for kind in stream.usual or stream.kinds for pause in ((), (0.3, 0.3))]
+    return lambda model: (
+        not any(stream.check(ITEMS, 1, *pause, kind=kind, model=model).mismatches for pause, kind in runs)
+    )
 
 
-STREAMS: dict[str, Callable[[sim.Model], bool]] = {
-    PARTS: _frames,
-    "shade_poly_span": _equal(poly_span(k.EVALUATOR_HORNER, "refined"), 300),
-    "shade_pixel_normals": _equal(pixel_normals(), 500),
-}
+@cache
+def whole_streams() -> dict[str, Callable[[sim.Model], bool]]:
+    """What runs a whole stream through a module, by module; not those that NumPy cannot drive."""
+    able = {s.module: s for s in reversed([*streams()]) if not (s.credits or s.apart[0])}
+    return {PARTS: _frames} | {module: _equal(stream) for module, stream in able.items()}
 
 
 def by_cases(target: Target, faults: Netlist, alive: list[int], vectors: int) -> Iterator[int]:
@@ -278,11 +308,11 @@ def by_cases(target: Target, faults: Netlist, alive: list[int], vectors: int) ->
 
 def by_stream(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]:
     """The mutants that a whole stream through the module kills."""
-    model, check = sim.load(target.top, **target.point), STREAMS[target.top]
+    model, check = sim.load(target.top, **target.point), whole_streams()[target.top]
     model.mutant, model.most = 0, sim.model.NEVER
     if not check(model):
         raise Differs(f"{target.module}: differs from the golden model without a fault")
-    model.most = 2_000_000
+    model.most = CLOCKS
     for mutant in alive:
         model.mutant = mutant
         try:
@@ -291,6 +321,57 @@ def by_stream(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int
             killed = True
         if killed:
             yield mutant
+
+
+@dataclass
+class Mutants:
+    """A plugin of pytest: every test with each mutant that lives on, from 0, none, on."""
+
+    target: Target
+    faults: Netlist
+    alive: list[int]
+    dead: list[int] = field(default_factory=list)
+    taken: bool = False  # the test has loaded the netlist
+
+    def netlist(self, module: str, point: Point) -> Path | None:
+        if module != self.target.top:
+            return None
+        if point != self.target.point:
+            pytest.skip("another point")
+        self.taken = True
+        return self.faults.verilog
+
+    def pytest_runtestloop(self, session: pytest.Session) -> bool:
+        model = sim.load(self.target.top, **self.target.point)
+        for item in session.items:
+            if "cocotb" in item.name:
+                continue
+            model.mutant, model.most, self.taken = 0, sim.model.NEVER, False
+            began = time.monotonic()
+            if _fails(item):
+                raise Differs(f"{self.target.module}: {item.nodeid} fails without a fault")
+            if not self.taken or time.monotonic() - began > SLOW:
+                continue
+            model.most = CLOCKS
+            for model.mutant in [mutant for mutant in self.alive if mutant not in self.dead]:
+                if _fails(item):
+                    self.dead.append(model.mutant)
+        return True
+
+
+def _fails(item: pytest.Item) -> bool:
+    return any(report.failed for report in runtestprotocol(item, log=False, nextitem=None))
+
+
+def by_file(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]:
+    """The mutants that the NumPy-driven tests of a file kill."""
+    plugin = Mutants(target, faults, alive)
+    chosen = ["-q", "-n", "0", "--timeout", "0", "-p", "no:cacheprovider", str(target.file)]
+    with sim.netlists(plugin.netlist), contextlib.redirect_stdout(io.StringIO()):
+        code = pytest.main(chosen, [plugin])
+    if code not in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
+        raise Differs(f"{target.module}: {target.file.name} did not run, pytest told {code}")
+    yield from plugin.dead
 
 
 def by_bench(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]:
@@ -304,6 +385,7 @@ def by_bench(target: Target, faults: Netlist, alive: list[int]) -> Iterator[int]
         path = faults.folder / f"killed-{os.getpid()}.json"
         path.unlink(missing_ok=True)
         more = {"MUTANTS": ",".join(map(str, alive)), "NETLIST": str(faults.verilog), "KILLED": str(path)}
+        more["COCOTB_MAX_FAILURES"] = "1"
         command = [sys.executable, "-m", "pytest", "-q", "-n", "0", "--timeout", "0", "-p", "no:cacheprovider", test]
         done = subprocess.run(command, cwd=ROOT, env=os.environ | more, capture_output=True, text=True)
         if not path.exists():
@@ -346,7 +428,8 @@ def _alone(target: Target, names: list[str], folder: Path) -> None:
         "write_verilog -noattr alone.v",
     ]  # fmt: skip
     tools.yosys("\n".join(steps), folder)
-    if target.top == target.module and (folder / "netlist.il").stat().st_size < SMALL:
+    apart = any(base(name) not in simple and name not in whole for name in names)  # else they are the same
+    if apart and target.top == target.module and (folder / "netlist.il").stat().st_size < SMALL:
         steps = [line.replace("alone", "whole") for line in steps if not re.match("setattr|expose", line)]
         tools.yosys("\n".join(steps), folder)
 
@@ -425,8 +508,10 @@ def engines(target: Target, bench: bool) -> list[Callable[[Netlist, list[int]], 
     found: list[Callable[[Netlist, list[int]], Iterable[int]]] = []
     if target.cases:
         found += [lambda faults, alive, v=v: by_cases(target, faults, alive, v) for v in VECTORS]
-    if target.top in STREAMS:
+    if target.top in whole_streams():
         found.append(lambda faults, alive: by_stream(target, faults, alive))
+    if target.file:
+        found.append(lambda faults, alive: by_file(target, faults, alive))
     if bench and (target.bench or any(not case.own_bench for case in target.cases)):
         found.append(lambda faults, alive: by_bench(target, faults, alive))
     return found
@@ -458,7 +543,7 @@ def named(target: Target, what: str) -> bool:
 
 def judge(target: Target, count: int = COUNT, seed: int = SEED, bench: bool = True, decide: bool = True) -> dict:
     """The report of a module."""
-    faults = netlist(target, count, seed)
+    faults, began = netlist(target, count, seed), time.monotonic()
     alive = list(range(1, len(faults.mutants) + 1))
     with sim.netlists(lambda module, point: faults.verilog):
         for engine in engines(target, bench):
@@ -479,6 +564,7 @@ def judge(target: Target, count: int = COUNT, seed: int = SEED, bench: bool = Tr
         ],
         "seed": seed,
         "named": {what: named(target, what) for what in NAMED.get(target.module, {})} if bench else {},
+        "seconds": round(time.monotonic() - began, 1),
     }
 
 
@@ -520,9 +606,9 @@ def main(names: list[str] | None = None, count: int = COUNT, seed: int = SEED) -
         low += [f"{name}: {what}: not killed" for what, killed in row["named"].items() if not killed]
         if seed == SEED and count == COUNT and share(row) < limits.get(name, 0):
             low.append(f"{name}: {share(row):.1f} % of its mutants killed, {limits[name]} % needed")
-    if not names and seed == SEED and count == COUNT and not low:
+    if seed == SEED and count == COUNT and not low:
         raised = {name: max(limits.get(name, 0), math.floor(10 * share(row)) / 10) for name, row in report.items()}
-        save(FLOORS, {name: raised[name] for name in known})
+        save(FLOORS, {name: (limits | raised)[name] for name in known if name in limits | raised})
     total = {key: sum(row[key] for row in report.values()) for key in ("generated", "killed", "equivalent")}
     counts = f"{total['killed']} killed, {total['equivalent']} equivalent"
     print(f"{total['generated']} mutants, {counts}: {share(total):.2f} %")
@@ -532,4 +618,11 @@ def main(names: list[str] | None = None, count: int = COUNT, seed: int = SEED) -
 
 
 def _job(target: Target, count: int, seed: int) -> dict:
-    return judge(target, count, seed)
+    files = [target.file, *([ROOT / target.bench.partition("::")[0]] if target.bench else [])]
+    files += [*(ROOT / "tb").glob("*.py"), *(ROOT / "sim" / "units").glob("*.py")]
+    tests = [path.read_bytes() for path in sorted({path for path in files if path})]
+    key = key_of(target, seed, [path.read_bytes() for path in reached(target.top)], tests, NAMED.get(target.module))
+    path = WORK / f"{target.module}-{count}-{key}.json"
+    if not path.exists():
+        save(path, judge(target, count, seed))
+    return json.loads(path.read_text())

@@ -25,6 +25,22 @@ def test_sample(module: str) -> None:
     assert row["killed"] + row["equivalent"] == 12, row["survived"]
 
 
+def test_tests_of_a_file() -> None:
+    """What a module's own file drives with NumPy kills as well; a fault that it does not see lives on."""
+    faults = mutants.netlist(TARGETS["shade_skipped"], 4, 1)
+    assert set(mutants.by_file(TARGETS["shade_skipped"], faults, [1, 2, 3, 4])) <= {1, 2, 3, 4}
+    assert list(mutants.by_file(TARGETS["shade_skipped"], faults, [0])) == []
+
+
+def test_an_interrupted_run_goes_on(monkeypatch) -> None:
+    """A module is judged once for the same RTL, tests, count and seed."""
+    runs = []
+    monkeypatch.setattr(mutants, "judge", lambda target, count, seed: runs.append(target.module) or {"seed": seed})
+    for module, count, seed in [("shade_third", 4, 1)] * 2 + [("shade_third", 4, 2), ("shade_third", 5, 1)]:
+        assert mutants._job(TARGETS[module], count, seed) == {"seed": seed}
+    assert runs == ["shade_third"] * 3
+
+
 def test_a_blind_test_lets_them_live(monkeypatch) -> None:
     """Without vectors nothing is killed, and what differs is told so."""
     monkeypatch.setattr(mutants, "engines", lambda target, bench: [])
@@ -44,7 +60,7 @@ def test_faults_of_the_text() -> None:
 
 
 def test_floors(monkeypatch, tmp_path, capsys) -> None:
-    """A module below its floor is told, and the command fails; a run over all modules raises floors, and no other."""
+    """A module below its floor is told, and the command fails; a run raises the floors of its modules, and no other."""
     rows = {"generated": 10, "killed": 9, "equivalent": 0, "undecided": 0, "survived": ["1: x"], "seed": 1, "named": {}}
     monkeypatch.setattr(mutants, "_job", lambda target, count, seed: rows)
     monkeypatch.setattr(mutants, "ProcessPoolExecutor", Pool)
@@ -54,7 +70,10 @@ def test_floors(monkeypatch, tmp_path, capsys) -> None:
     assert mutants.main(["shade_third"]) == 1
     assert "shade_third: 90.0 % of its mutants killed, 95.0 % needed" in capsys.readouterr().out
     assert not mutants.OUT.exists()
+    assert mutants.main(["shade_fifo"], 20) == 0
+    assert json.loads(mutants.FLOORS.read_text()) == {"shade_third": 95.0}
     assert mutants.main(["shade_fifo"]) == 0
+    assert json.loads(mutants.FLOORS.read_text()) == {"shade_third": 95.0, "shade_fifo": 90.0}
     mutants.FLOORS.write_text(json.dumps({"shade_third": 50.0}))
     assert mutants.main() == 0
     assert json.loads(mutants.FLOORS.read_text()).keys() == TARGETS.keys()

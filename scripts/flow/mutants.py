@@ -68,11 +68,7 @@ VECTORS = (2_000, 100_000)  # of a case: for all mutants, for those that live on
 NONE = ("shade_assert", "shade_stable")  # assertions alone: synthesis and mutants leave them out
 CUT = ("shade_mul", "shade_rsqrt", "shade_rsqrt_rom")  # parts that a search for a difference cuts out
 PARTS = "shade_patch"  # the parts of this one are tested in it
-AROUND = {  # the module in which one without a test of its own is tested
-    "shade_setup_factors": "shade_spans",
-    "shade_setup_area": "shade_spans",
-    **dict.fromkeys((f"shade_scene_{part}" for part in ("level", "sweep", "sites", "idle")), "shade_scene"),
-}
+AROUND = {"shade_setup_": "shade_spans", "shade_scene_": "shade_scene"}  # parts without tests are tested in these
 POINTS: dict[str, Point] = {  # at which tests have a module, where its default is none
     PARTS: {"LANES": 2},
     "shade_scene": {"COLUMNS_LOG2": 6, "LINES_LOG2": 6, "DOUBLE": 0},
@@ -124,8 +120,10 @@ def targets() -> list[Target]:
     found = []
     for module in modules():
         inner = module.startswith(f"{PARTS}_") and module not in points
-        top = PARTS if inner else AROUND.get(module, module)
-        own, around = (_tests(modules()[name]) for name in (module, top))
+        own, top = _tests(modules()[module]), PARTS if inner else module
+        if not own.exists() and module not in points:
+            top = next((around for part, around in AROUND.items() if module.startswith(part)), top)
+        around = _tests(modules()[top])
         text = own.read_text() if own.exists() else ""
         first = "[default]" if "def test_cocotb(point)" in text else ""
         bench = f"{own.relative_to(ROOT)}::test_cocotb{first}" if "def test_cocotb(" in text else ""

@@ -4,12 +4,13 @@
 
 BIN    := .venv/bin
 READY  := .venv/.stamp
+SOC    := .venv-soc/.stamp
 HEAD   := build/render/head
 EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate mutants coverage budget report soak machines handoff board pictures tables lock clean distclean
+.PHONY: all help setup test test-all test-one lint format generate sources bench units papers synth formal gate mutants coverage budget report soak machines handoff soc board pictures tables lock clean distclean
 
 all: $(EQUAL) ## Set up, render the default head, check every pixel (the default)
 	@echo "$(HEAD)/image.png: rendered by the RTL, every pixel equal to the golden model"
@@ -34,7 +35,7 @@ test: $(READY) ## Run lint, golden, cocotb, NumPy-driven and command-line tests
 	$(PYTEST) -n auto --dist worksteal --junitxml build/test/report.xml
 
 test-all: export FULL = 1
-test-all: test ## The same at every parameter point, with ten million vectors a unit
+test-all: $(SOC) test ## The same at every parameter point, with ten million vectors a unit
 
 test-one: $(READY) ## Run one test again: T='tb/...::test_x[...]' SEED=1 WAVES=1
 	@$(BIN)/python -m polyshade.scripts.flow.tools cocotb
@@ -73,6 +74,15 @@ synth: ## Synthesize every module: LUT, FF, DSP, BRAM, Fmax; leaves build/synth.
 soak: $(READY) ## Random work against the golden model: MINUTES=1 SEED=1; leaves build/soak.json
 	$(BIN)/polyshade soak --minutes $(or $(MINUTES),1) --seed $(or $(SEED),1)
 
+soc: $(READY) $(SOC) ## Draw from C on a soft core of LiteX, in Verilator; leaves build/soc
+	$(BIN)/polyshade soc
+
+# LiteX and a C compiler for its soft core: an environment of their own, not part of the set-up
+$(SOC): requirements-soc.txt
+	$(or $(PYTHON),python3) -m venv --clear .venv-soc
+	.venv-soc/bin/python -m pip install --quiet --no-deps --require-hashes -r requirements-soc.txt
+	@touch $@
+
 board: $(READY) ## Make the bitstream of a board: BOARD=ulx3s; leaves build/board
 	$(BIN)/polyshade board '$(or $(BOARD),$(error BOARD is empty: allowed ulx3s))'
 
@@ -89,4 +99,4 @@ clean: ## Remove what was built
 	rm -rf build
 
 distclean: clean ## Remove the virtual environment as well
-	rm -rf .venv *.egg-info .pytest_cache .ruff_cache
+	rm -rf .venv .venv-soc *.egg-info .pytest_cache .ruff_cache

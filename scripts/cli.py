@@ -344,6 +344,14 @@ def handoff(configuration: tuple[str, ...]) -> None:
 
 
 @cli.command()
+def soc() -> None:
+    """Draw from C on a soft core of LiteX, in Verilator, and compare; leaves build/soc/report.json."""
+    from polyshade.scripts.handoff import soc as command
+
+    sys.exit(command.main())
+
+
+@cli.command()
 @click.argument("module", nargs=-1)
 @click.option("--count", default=60, help="Faults of a module.")
 @click.option("--seed", default=1, help="Seed of their choice.")

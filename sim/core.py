@@ -134,7 +134,7 @@ def _draw(
     seconds = time.perf_counter() - began
     built = {name.lower(): value for name, value in parameters.items() if name not in ("LANES", "FOLD")}
     wanted = golden.lane(lines.n, lines.g, lines.count, words, flat=lines.flat, cosine=lines.cosine, **built)
-    pixels, mismatches, first = compare(run.outputs, lines, beats, wanted, parameters["LANES"])
+    pixels, mismatches, first = compare(run.outputs, lines, beats, wanted, parameters.get("LANES", 1))
     if first.get("input", "none") != "none":
         first["again"] = model.again(s_axis_span_tdata=beats[first["span"]], **WHOLE, writes=writes)
     counters = {name.lower(): run.registers[OFFSETS[name]] for name in COUNTERS}

@@ -19,7 +19,7 @@ from polyshade.scripts.report import save
 from polyshade.sim.sources import BUILD, ROOT
 
 FIGURES = ROOT / "docs" / "figures.json"
-DOCUMENTS = ("README.md", "docs/results.md", "docs/architecture.md")
+DOCUMENTS = ("README.md", "docs/results.md", "docs/architecture.md", "docs/integration.md")
 BLOCK = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 SHORT = ("direct/1/blinn/1", "patch/1/blinn/1", "patch/4/blinn/1", "line/1/blinn/1", "vector/1/blinn/1")
 UNIT_KEYS = ("vectors", "exhaustive", "mismatches", "max_error_ulp", "max_error_ideal", "latency", "throughput")
@@ -154,6 +154,24 @@ def machines(figures: Figures) -> str:
     return markdown(MACHINE_HEAD, machine_rows(figures["machines"], figures["machines"]))
 
 
+def choice(figures: Figures) -> str:
+    """Cost for a rate of pixels; bold: no other machine is at least as good in all five."""
+    costs = {}
+    for name, each in figures["machines"].items():
+        rate = each["fmax_mhz"] * each["pixels_per_clock"]["head1024"]
+        costs[name] = (each["lut"], each["ff"], each["dsp"], -rate, each["nmse_specular"]["128"])
+
+    def beaten(own: tuple) -> bool:
+        return any(other != own and all(a <= b for a, b in zip(other, own, strict=True)) for other in costs.values())
+
+    rows = []
+    for name, own in sorted(costs.items(), key=lambda pair: pair[1][3]):
+        *area, rate, error = own
+        shown = name if beaten(own) else f"**{name}**"
+        rows.append([shown, *area, fixed(-rate, 0), fixed(area[0] / -rate, 1), small(error)])
+    return markdown(["machine", "LUT", "FF", "DSP", "Mpixel/s", "LUT per Mpixel/s", "NMSE specular, n = 128"], rows)
+
+
 AREA = ("lut", "ff", "dsp", "bram")
 
 
@@ -223,6 +241,7 @@ def formal(figures: Figures) -> str:
 TABLES: dict[str, tuple[str, Callable[[Figures], str]]] = {  # name: part of the extract, function
     "short_machines": ("machines", short_machines),
     "machines": ("machines", machines),
+    "choice": ("machines", choice),
     "synth": ("synth", synth),
     "units": ("units", units),
     "papers": ("papers", papers),

@@ -46,6 +46,7 @@ README = """\
 | `shade.core`, `Bender.yml`, `component.xml`, `shade.rdl` | FuseSoC, Bender, IP-XACT (IEEE 1685-2014), SystemRDL |
 | `constraints/`, `scripts/` | SDC, XDC, LPF, CST; a script for Vivado, Quartus, Radiant, Diamond, Gowin, Libero, Yosys |
 | `driver/` | C header and C driver, notes for Linux |
+| `litex/` | `shade.py`, a wrapper of the core for LiteX; `soc.py`, `main.c`: a simulated SoC whose processor draws by it |
 | `smoke/` | a bench for every configuration, with recorded vectors: it says PASS or FAIL |
 | `docs/` | how to integrate, registers, packets |
 | `manifest.json` | versions, parameters, ports, area and clock rate, checksums |
@@ -198,7 +199,8 @@ def build(parts: list[Configuration]) -> None:
     shutil.rmtree(OUT, ignore_errors=True)
     OUT.mkdir(parents=True)
     shutil.copytree(ROOT / "rtl", OUT / "rtl")
-    shutil.copytree(ROOT / "scripts" / "handoff" / "driver", OUT / "driver")
+    for name in ("driver", "litex"):
+        shutil.copytree(ROOT / "scripts" / "handoff" / name, OUT / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "LICENSE", OUT)
     for name in ("lists", "verilog", "constraints", "scripts", "smoke", "docs"):
         (OUT / name).mkdir()

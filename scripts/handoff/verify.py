@@ -99,10 +99,10 @@ def _of_all(folder: Folder) -> Iterator[tuple[str, ...]]:
     yield _told("checksums", "all", folder.run("sha256sum", "--check", "--quiet", "sums"), f"{len(sums)} files")
     texts = (p.read_text(errors="ignore") for p in folder.path.rglob("*") if p.is_file())
     yield _told("own paths", "all", (not any(str(ROOT) in text for text in texts), "a path of the repository"))
-    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-c"]
-    yield _told(
-        "driver", "all", folder.run("gcc", *flags, "shade.c", "-o", "shade.o", folder="driver"), "C99, no warning"
-    )
+    flags = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-c", "shade.c", "shade_material.c"]
+    yield _told("driver", "C99", folder.run("gcc", "-std=c99", *flags, folder="driver"), "no warning")
+    header = ["g++", "-std=c++11", *flags[:4], "-fsyntax-only", "-x", "c++", "shade.h"]
+    yield _told("driver", "C++", folder.run(*header, folder="driver"), "header, no warning")
     for name in SCRIPTS:
         tclsh = shutil.which("tclsh")
         if not tclsh:

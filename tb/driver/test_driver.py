@@ -22,6 +22,7 @@ from systemrdl import RDLCompiler, RegNode
 
 from tb.runner import FULL, SEED
 
+FOLDER = ROOT / "scripts" / "handoff" / "driver"
 COUNT = 10_000 if FULL else 300
 ENERGIES = ("none", *ROWS)
 LIMITS = {name: limits for name, limits in RANGES.items() if name not in ("colour", "highlight")}
@@ -57,13 +58,16 @@ def driver(tmp_path_factory) -> ctypes.CDLL:
     """The driver as a shared library: C99 without a warning."""
     library = tmp_path_factory.mktemp("driver") / "libshade.so"
     flags = ["-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic", "-shared", "-fPIC"]
-    subprocess.run(
-        ["gcc", *flags, "-o", library, ROOT / "scripts" / "handoff" / "driver" / "shade.c", "-lm"], check=True
-    )
+    subprocess.run(["gcc", *flags, "-o", library, *sorted(FOLDER.glob("*.c")), "-lm"], check=True)
     loaded = ctypes.CDLL(str(library))
     loaded.shade_check.restype = ctypes.c_char_p
     loaded.shade_material_default.restype = CMaterial
     return loaded
+
+
+def test_header_is_cpp() -> None:
+    flags = ["-std=c++11", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only", "-x", "c++"]
+    subprocess.run(["g++", *flags, FOLDER / "shade.h"], check=True)
 
 
 def in_c(surface: Material) -> CMaterial:

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Driver of shade_core: register words from physical parameters, packets, access to the registers.
  *
- * C99, nothing but libm. A port of golden/material.py: the same words, bit for bit (tb/driver).
- * Not reentrant: the fit of a highlight keeps 64 KiB of static scratch. It takes some 10^5 calls of pow: a table of
- * words, made once on a host, is the better choice on a processor without floating point.
+ * C99. shade_material.c is a port of golden/material.py: the same words, bit for bit (tb/driver); it needs libm, and is
+ * not reentrant: the fit of a highlight keeps 64 KiB of static scratch. It takes some 10^5 calls of pow: a table of
+ * words, made once on a host, is the better choice on a processor without floating point. shade.c has the rest.
  */
 #ifndef SHADE_H
 #define SHADE_H
@@ -11,6 +11,10 @@
 #include <stdint.h>
 
 #include "shade_registers.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum shade_energy {                 /* rows of an energy-conserving scale; each belongs to one model */
     SHADE_ENERGY_NONE,
@@ -60,6 +64,8 @@ struct shade_counters {
     uint32_t pixels, spans, clocks, stalls, evaluations, errors;
 };
 
+/* ---- shade_material.c ---- */
+
 /* The material that fields not set by the user should have: Blinn-Phong, n = 32. */
 struct shade_material shade_material_default(void);
 
@@ -70,10 +76,12 @@ const char *shade_check(const struct shade_material *material, const double ligh
  * Returns their number, SHADE_WORDS, or 0 where shade_check finds a fault. */
 int shade_words(const struct shade_material *material, const double light[3], struct shade_word words[SHADE_WORDS]);
 
+/* ---- shade.c ---- */
+
 /* A span as a beat of s_axis_span, the lowest 32 bits first. */
 void shade_pack(const struct shade_span *span, uint32_t beat[SHADE_SPAN_WORDS]);
 
-/* ---- registers behind a pointer to their first word: memory-mapped, or mapped by UIO ---- */
+/* Registers behind a pointer to their first word: memory-mapped, or mapped by UIO. */
 
 /* 0, or -1 where ID is not "PSHD" or the major version is another one. */
 int shade_probe(const volatile uint32_t *base);
@@ -88,5 +96,9 @@ void shade_clear(volatile uint32_t *base);
 int shade_busy(const volatile uint32_t *base);
 
 struct shade_counters shade_count(const volatile uint32_t *base);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,7 +4,7 @@
 
 BIN    := .venv/bin
 READY  := .venv/.stamp
-SOC    := .venv-soc/.stamp
+SOC    := .venv/soc/.stamp
 HEAD   := build/render/head
 EQUAL  := $(HEAD)/.equal
 PYTEST := $(BIN)/python -m pytest
@@ -78,9 +78,9 @@ soc: $(READY) $(SOC) ## Draw from C on a soft core of LiteX, in Verilator; leave
 	$(BIN)/polyshade soc
 
 # LiteX and a C compiler for its soft core: an environment of their own, not part of the set-up
-$(SOC): requirements-soc.txt
-	$(or $(PYTHON),python3) -m venv --clear .venv-soc
-	.venv-soc/bin/python -m pip install --quiet --no-deps --require-hashes -r requirements-soc.txt
+$(SOC): requirements-soc.txt | $(READY)
+	$(or $(PYTHON),python3) -m venv --clear .venv/soc
+	.venv/soc/bin/python -m pip install --quiet --no-deps --require-hashes -r requirements-soc.txt
 	@touch $@
 
 board: $(READY) ## Make the bitstream of a board: BOARD=ulx3s; leaves build/board
@@ -99,4 +99,4 @@ clean: ## Remove what was built
 	rm -rf build
 
 distclean: clean ## Remove the virtual environment as well
-	rm -rf .venv .venv-soc *.egg-info .pytest_cache .ruff_cache
+	rm -rf .venv *.egg-info .pytest_cache .ruff_cache

@@ -2,7 +2,7 @@
 """A SoC of LiteX in Verilator: ``make soc``. A program in C on its soft core draws a picture by ``shade_core``.
 
 The SoC (``scripts/handoff/litex``) is made by LiteX with a VexRiscv, its program compiled by Zig; both live
-in an environment of their own, ``.venv-soc``. Every pixel that the program prints is compared with the golden model:
+in an environment of their own, ``.venv/soc``. Every pixel that the program prints is compared with the golden model:
 ``build/soc/report.json``.
 """
 
@@ -28,7 +28,7 @@ from polyshade.sim.tools import verilator
 
 HERE = ROOT / "scripts" / "handoff" / "litex"
 DRIVER = ROOT / "scripts" / "handoff" / "driver"
-PYTHON = ROOT / ".venv-soc" / "bin" / "python"
+PYTHON = ROOT / ".venv" / "soc" / "bin" / "python"
 WORK = BUILD / "soc"
 SIZE = 24  # of the picture
 TARGET = ["-target", "riscv32-freestanding-none", "-mcpu=generic_rv32", "-mabi=ilp32"]

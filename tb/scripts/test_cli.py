@@ -571,6 +571,12 @@ BAD_COMMANDS = [
     )),
     (["bench", "--runs", "1"], "--runs"), (["gallery", "--mesh", ""], "--mesh"), (["gallery", "--out", ""], "--out"),
     (["gallery", "--model", "ward"], "--model"), (["units", "--vectors"], "--vectors"),
+    *((command.split(), told) for command, told in (
+        ("handoff core nosuch", "nosuch: no such configuration, allowed core, core_small, core_folded, direct, patch"),
+        ("handoff --all", "--all"), ("board ulx4s", "ulx4s: no such board, allowed ulx3s"), ("board", "NAME"),
+        ("machines patch/3/blinn/1", "patch/3/blinn/1"), ("gate nosuch", "nosuch"), ("soc now", "now"),
+    )),
+    (["handoff", ""], "no such configuration"), (["board", ""], "no such board"),
     (["synth", ""], "no such module"), (["synth", "../rtl/fixed/shade_third.sv"], "shade_third.sv"),
 ]  # fmt: skip
 BAD_RENDERS = [

@@ -4,7 +4,7 @@
     python soc.py BUNDLE OUT [PROGRAM]
 
 writes ``OUT/soc.v``, ``OUT/sources.f`` and ``OUT/csr.h``, the addresses for the program; with PROGRAM, a binary for
-address 0, the memory holds it. The pins of the UART are bytes with valid and ready. Nothing of LiteX's software is compiled.
+address 0, the memory holds it. The UART gives bytes with valid and ready. Nothing of LiteX's software is compiled.
 """
 
 import sys

@@ -2,7 +2,7 @@
 // shade_spans: triangles of three vertices to spans: a scan converter in front of shade_core.
 //
 // s_axis_vertex: see shade_scan; m_axis_span: see shade_lines. skipped_o: triangles without spans, since reset.
-// About 50 clocks from a third vertex to the first span. Example: golden.raster.scan, .lines.
+// About 70 clocks from a third vertex to the first span. Example: golden.raster.scan, .lines.
 module shade_spans (
   input  logic                                clk_i,
   input  logic                                rst_i,

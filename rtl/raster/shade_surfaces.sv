@@ -2,7 +2,7 @@
 // shade_surfaces: triangles of three vertices to packets TRIANGLE and RUN: a scan converter in front of shade_direct, shade_patch.
 //
 // s_axis_vertex: see shade_scan; m_axis_surface: see shade_packets. skipped_o: triangles without a packet, since reset.
-// About 50 clocks from a third vertex to its packet. Example: golden.raster.scan, .packets.
+// About 70 clocks from a third vertex to its packet. Example: golden.raster.scan, .packets.
 module shade_surfaces (
   input  logic                                 clk_i,
   input  logic                                 rst_i,

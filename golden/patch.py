@@ -190,17 +190,25 @@ def light(at: Scalars, i: Int, j: Int, lobe: Lobe, excess: Int) -> tuple[Int, In
     return limit(diffuse.sum(axis=0)), limit(specular.sum(axis=0)), every[0][2]
 
 
-def coefficients(c: Int, e: Int, a: Int, b: Int, f: Int, g: Int) -> tuple[Int, ...]:
-    """(C, 2 s, 2 t, p, q, r) of I = C + s X + t Y + p X^2 + q X Y + r Y^2 from the light at the six nodes."""
-    c, e, a, b, f, g = integers(c, e, a, b, f, g)
-    right, left = a + b, f + g
-    return c, right - left, a + f - b - g, 4 * (e - c) - right + left, a - b - f + g, 2 * right - 4 * e
+def coefficients(b: Int, a: Int, g: Int, f: Int, c: Int, e: Int) -> tuple[Int, ...]:
+    """(C, s, t, p, q, r) of I = C + s X + t Y + p X^2 + q X Y + r Y^2 from the light at the six nodes, in this order.
+
+    In units of :func:`value`, for X, Y in eighths of half a box; what does not fit is cut. (``shade_patch_coef``)
+    """
+    b, a, g, f, c, e = integers(b, a, g, f, c, e)
+    s, t, q = a + b - f - g, a + f - b - g, a - b - f + g
+    up = k.PATCH_VALUE_F
+    p, r = 4 * (e - c) - s, 2 * (a + b) - 4 * e
+    return c << up, s << up >> 4, t << up >> 4, p << up >> 6, q << up >> 6, r << up >> 6
 
 
 def value(coefficients: tuple[Int, ...], x: Int, y: Int) -> Int:
-    """I at x, y, eighths of half a box, -8 .. 7, to a pixel's U0.16: exact, rounded once, clamped."""
-    c, s2, t2, p, q, r = coefficients
-    exact = (c << k.PATCH_VALUE_F) + 4 * (s2 * x + t2 * y) + p * x * x + q * x * y + r * y * y
+    """I at x, y, eighths of half a box, -8 .. 7, to a pixel's U0.16: rounded once, clamped.
+
+    The sum, S1.18, is exact, modulo 4. (``shade_patch_lines``)
+    """
+    c, s, t, p, q, r = coefficients
+    exact = c + s * x + t * y + p * x * x + q * x * y + r * y * y
     return pixel(wrap(exact + (1 << k.PATCH_VALUE_F - 1), k.PATCH_VALUE_W))
 
 
@@ -228,7 +236,7 @@ class Drawn:
     direct: int
 
 
-NODES = ((0, 0), (1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1))  # C, E, A, B, F, G, in quarters of a box
+NODES = ((1, -1), (1, 1), (-1, -1), (-1, 1), (0, 0), (1, 0))  # B, A, G, F, C, E, in quarters of a box
 
 
 def draw(t: Triangles, words: Settings, lobe: Lobe) -> Drawn:

@@ -244,8 +244,8 @@ package shade_pkg;
   localparam int PATCH_AWAY_W = 23;  // U7.16: a distance of normals
   localparam int PATCH_RADIUS = 32768;  // U0.16: the longest way of the normal from the middle of a box to its corner, 1/2
   localparam int PATCH_REACH_W = 19;  // U3.16
-  localparam int PATCH_VALUE_F = 6;  // more fraction bits of a polynomial: all its terms are whole numbers of them
-  localparam int PATCH_VALUE_W = 25;  // S2.22: of a lane's state, modulo 8
+  localparam int PATCH_VALUE_F = 2;  // more fraction bits of a polynomial
+  localparam int PATCH_VALUE_W = 20;  // S1.18: of a lane's state, modulo 4
   localparam int PATCH_FIFO_LOG2 = 9;  // the depth of a block RAM
   localparam int PATCH_WAIT_LOG2 = 10;  // lights that wait for their box to be drawn
   localparam int PATCH_PIXELS_LOG2 = 6;  // pixels that wait for a lane's consumer
@@ -263,7 +263,7 @@ package shade_pkg;
   localparam int PATCH_PLACE_W = 40;
   localparam int PATCH_META_W = 51;
   localparam int PATCH_AREA_W = 44;
-  localparam int PATCH_PIECE_W = 194;
+  localparam int PATCH_PIECE_W = 164;
   localparam int PATCH_USER_W = 40;  // tuser of shade_patch
 
   // latencies, in clocks from an input taken to the output it causes
@@ -335,7 +335,8 @@ package shade_pkg;
   localparam int LATENCY_CORE = 140;  // the door
   localparam int LATENCY_PAINT = 8;
   localparam int LATENCY_PATCH_NODES = 4;  // the choice of a node, three sums
-  localparam int LATENCY_PATCH_LINES = 4;  // two bits of X each
+  localparam int PATCH_LINES_LATE = 3;  // clocks between the two parts of shade_patch_lines
+  localparam int LATENCY_PATCH_LINES = 5;  // p X, V, two bits of X each
   localparam int LATENCY_RHO = 8;  // the table, c2 d, s, s d, its rounding, rho
   localparam int LATENCY_CHORD = 6;  // the scaled x, the table, the product, the sum, saturation
   localparam int LATENCY_DIRECT_LIGHT = 17;  // rho, products, sums, the lobe

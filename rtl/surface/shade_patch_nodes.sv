@@ -5,11 +5,11 @@
 //   room_i    stops the walk; up to two nodes still come
 //   valid_o   a node: a_o S1.17, h_o S1.24 of each light, p_o U1.25, i, j quarters of a box from its middle, modulo their widths:
 //             a + i a_c + j a_l;   p + i p_c + j p_l + i^2 p_cc + i j p_cl + j^2 p_ll
-//             i, j of nodes: (0, 0), (1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1); of pixels: column, line - 2
+//             i, j of nodes: (1, -1), (1, 1), (-1, -1), (-1, 1), (0, 0), (1, 0); of pixels: column, line - 2
 //   meta_valid_o, meta_o   {direct, deep, kx, ky, column, line, tag} once a box, or for every pixel, in time for its first light
 //
 // No multiplier. A node a clock, no bubble between boxes. Latency LATENCY_PATCH_NODES = 4.
-// Example: a = 1, a_c = 1/4, others 0 -> 1, 5/4, 5/4, 5/4, 3/4, 3/4.
+// Example: a = 1, a_c = 1/4, others 0 -> 5/4, 5/4, 3/4, 3/4, 1, 5/4.
 module shade_patch_nodes #(
   parameter int LIGHTS = 1
 ) (
@@ -61,8 +61,8 @@ module shade_patch_nodes #(
     // -2 .. 1 of a pixel is its place less 2: the upper bit turned over
     if (direct_q) {j, i} = pixel ^ 4'b1010;
     else begin
-      i = node_q == 3'd0 ? 2'sd0 : node_q[2] ? -2'sd1 : 2'sd1;
-      j = node_q[2:1] == 2'd0 ? 2'sd0 : node_q[0] ? -2'sd1 : 2'sd1;
+      i = node_q == 3'd4 ? 2'sd0 : node_q[1] ? -2'sd1 : 2'sd1;
+      j = node_q[2] ? 2'sd0 : node_q[0] ? 2'sd1 : -2'sd1;
     end
   end
   always_ff @(posedge clk_i) begin

@@ -36,7 +36,7 @@ module shade_patch_pieces (
   localparam int PLACE_W = shade_pkg::PLACE_W;
   localparam int TAG_W = shade_pkg::TAG_W;
   localparam int LATENCY = shade_pkg::LATENCY_PATCH_LINES;
-  localparam int LATE = 2;  // clocks between the two parts of shade_patch_lines
+  localparam int LATE = shade_pkg::PATCH_LINES_LATE;
   localparam int BOX_W = LOG2 + 6 + 2 * PLACE_W + TAG_W;
 
   // ---- nodes: six of a box, or a pixel -----------------------------------------------------------------------------------------
@@ -45,8 +45,8 @@ module shade_patch_pieces (
   logic [LATE-1:0] loads_q, steps_q;
   logic [BOX_W-1:0] box, coming_q, box_q;
   assign {direct, box} = meta_i;
-  // the last node of a box when there is room for its coefficients
-  assign node          = meta_valid_i && light_valid_i && !direct && (node_q != 3'd5 || free_q || loads_q[LATE-1]);
+  // the last nodes of a box when there is room for its coefficients
+  assign node          = meta_valid_i && light_valid_i && !direct && (!node_q[2] || free_q || loads_q[LATE-1]);
   assign whole         = node && node_q == 3'd5;
   assign single        = meta_valid_i && light_valid_i && direct && (!pixel_valid_o || pixel_ready_i);
   assign light_ready_o = node || single;
@@ -135,17 +135,16 @@ module shade_patch_pieces (
   assign x = (first << jx) ^ LOG2'(8);
 
   for (genvar c = 0; c < 2; c++) begin : g_channel
-    logic signed [W+1:0] ct;
-    logic signed [W+3:0] r;
-    logic signed [W+5:0] u;
-    logic signed [W+1:0] s, q;
-    logic signed [W+4:0] p;
+    logic signed [VALUE_W-1:0] a, b, u;
+    logic signed [W-1:0] p;
+    logic signed [W-3:0] q;
+    logic signed [W-2:0] r;
     shade_patch_coef u_coef (
-      .clk_i, .valid_i(node), .node_i(node_q), .light_i(light_i[c*W+:W]), .load_i(load_q), .ct_o(ct), .r_o(r), .u_o(u),
-      .s_o(s), .q_o(q), .p_o(p)
+      .clk_i, .valid_i(node), .node_i(node_q), .light_i(light_i[c*W+:W]), .load_i(load_q), .a_o(a), .b_o(b),
+      .u_o(u), .p_o(p), .q_o(q), .r_o(r)
     );
     shade_patch_lines u_lines (
-      .clk_i, .ct_i(ct), .r_i(r), .u_i(u), .s_i(s), .q_i(q), .p_i(p), .load_i(load), .load_late_i(loads_q[LATE-1]),
+      .clk_i, .a_i(a), .b_i(b), .u_i(u), .p_i(p), .q_i(q), .r_i(r), .load_i(load), .load_late_i(loads_q[LATE-1]),
       .jy_i(jy), .jy_late_i(jy_late), .step_i(step), .step_late_i(steps_q[LATE-1]), .x_i(x), .jx_i(jx),
       .first_o(value_o[c*3*VALUE_W+:VALUE_W]), .d1_o(value_o[(c*3+1)*VALUE_W+:VALUE_W]),
       .d2_o(value_o[(c*3+2)*VALUE_W+:VALUE_W])

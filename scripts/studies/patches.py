@@ -51,7 +51,7 @@ class Scene:
 def fit(light, nodes: str) -> tuple[Floats, ...]:
     """C, s, t, p, q, r over X, Y in [-1, 1) from ``light(i, j)``, i, j in halves of half a box."""
     if nodes == "inner":
-        c, e, a, b, f, g = (light(i, j) for i, j in patch.NODES)
+        b, a, g, f, c, e = (light(i, j) for i, j in patch.NODES)
         c, s2, t2, p, q, r = (
             c,
             a + b - f - g,

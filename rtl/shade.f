@@ -106,6 +106,7 @@ surface/shade_chord.sv
 surface/shade_scalar_light.sv
 surface/shade_direct_light.sv
 surface/shade_patch_room.sv
+surface/shade_patch_deal.sv
 surface/shade_patch_tokens.sv
 surface/shade_patch_slots.sv
 surface/shade_patch_door.sv

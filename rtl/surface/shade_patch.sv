@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_patch: triangles and their runs in, pixels out: light at six nodes of a box, a polynomial of two variables between them.
 //
-//   surface ─▶ boxes ─┬─▶ lights ─┐
-//                     └─ tokens ──┴─▶ pieces ─▶ lanes ─▶ pixels
+//   surface ─▶ boxes ─┬─▶ lights ─┬─ pixels ──────────┐
+//                     └─ tokens ──┴─▶ pieces ─▶ deal ─▶ lanes ─▶ pixels
 //
 //   s_axis_surface   packets TRIANGLE and RUN of docs/interface.md, or LOBE and CHORD while no pixel is inside
 //   l_i .. reach_i   settings of the draw call, see golden.patch.registers, of LIGHTS directional lights: must not change while
@@ -12,10 +12,11 @@
 //   error_o          what came in and was dropped: see shade_patch_door, since reset; error_count_o how often
 //   flags_o          bits PATCH_LIGHT_* since reset: light that is not exact
 //
-// Order: boxes of a triangle row by row, in a box line by line; a piece goes to the first lane that is free, a pixel that is lit
-// directly to the last one, so the order depends on the consumers; each pixel tells its place.
+// Order: boxes of a triangle row by row, in a box line by line; a piece waits for one half of the lanes, where less wait, and goes to
+// the first of them that is free, a pixel that is lit directly to the last one, so the order depends on the consumers; each pixel
+// tells its place.
 // Full back-pressure: every stage stops for want of room in the FIFO behind it; no path leads from an input to an output.
-// LANES pixels a clock as long as pieces are long enough: at most a piece, a node, two lines of a box a clock. Latency from a
+// LANES pixels a clock as long as pieces are long enough: at most a piece made and two dealt, a node, two lines of a box a clock. Latency from a
 // small triangle's first beat to its first pixel: about 110 clocks.
 // Source: P1 in two dimensions, P4's constant increment. Example: a triangle with N = L = H everywhere -> all pixels full light.
 module shade_patch #(
@@ -48,11 +49,10 @@ module shade_patch #(
 
   localparam int PIXEL_W = shade_pkg::PIXEL_DATA_W;
   localparam int USER_W = shade_pkg::PATCH_USER_W;
-  localparam int FIFO = shade_pkg::PATCH_FIFO_LOG2;
 
   // ---- boxes and the light in them -----------------------------------------------------------------------------------------------
   logic beat_valid, beat_ready, plan_valid, plan_ready, done, place_valid, place_ready, box_valid, box_ready, token_valid, token_ready;
-  logic light_valid, light_ready, meta_valid, meta_ready, table_write;
+  logic light_valid, light_ready, meta_valid, meta_ready, single_valid, single_ready, table_write;
   logic [shade_pkg::SURFACE_DATA_W-1:0] beat;
   logic [5:0] plan;
   logic [shade_pkg::PATCH_PLACE_W-1:0] place;
@@ -62,7 +62,8 @@ module shade_patch #(
   shade_pkg::chord_t chord;
   logic [shade_pkg::CHORD_SHIFT_W-1:0] shift;
   logic [2*shade_pkg::INTENSITY_W-1:0] light;
-  logic [shade_pkg::PATCH_META_W-1:0] meta;
+  logic [shade_pkg::PATCH_META_W-2:0] meta;
+  logic [USER_W+PIXEL_W-1:0] single;
   logic [shade_pkg::ERROR_W-1:0] error;
   logic [shade_pkg::PATCH_FLAGS_W-1:0] flags;
   shade_patch_boxes #(.LIGHTS(LIGHTS)) u_boxes (
@@ -79,54 +80,78 @@ module shade_patch #(
     .plan_ready_o(plan_ready), .plan_i(plan), .done_o(done), .place_valid_i(place_valid), .place_ready_o(place_ready),
     .place_i(place), .box_valid_i(box_valid), .box_ready_o(box_ready), .box_i(box), .light_valid_o(light_valid),
     .light_ready_i(light_ready), .light_o(light), .meta_valid_o(meta_valid), .meta_ready_i(meta_ready), .meta_o(meta),
-    .flags_o(flags)
+    .pixel_valid_o(single_valid), .pixel_ready_i(single_ready), .pixel_o(single), .flags_o(flags)
   );
 
   // ---- pieces -----------------------------------------------------------------------------------------------------------------------
   localparam int VALUES_W = 6 * shade_pkg::PATCH_VALUE_W;
-  logic piece_room, area_valid, area_put, value_put, value_valid, piece_ready, piece_taken, single_valid;
-  logic [shade_pkg::PATCH_AREA_W-1:0] area_new, area;
-  logic [VALUES_W-1:0] value_new, value;
-  logic [USER_W+PIXEL_W-1:0] single;
-  logic [LANES-1:0] lane_ready, single_ready;
+  localparam int AREA_W = shade_pkg::PATCH_AREA_W;
+  localparam int GROUPS = LANES > 1 ? 2 : 1;  // each of which has a FIFO, and deals a piece a clock
+  localparam int EACH = LANES / GROUPS;
+  localparam int DEEP = shade_pkg::PATCH_PIECES_LOG2;
+  logic piece_room, area_put, value_put, group_area, group_value;
+  logic [1:0] piece_taken;
+  logic [AREA_W-1:0] area_new;
+  logic [VALUES_W-1:0] value_new;
+  logic [LANES-1:0] single_taken;
   shade_patch_pieces u_pieces (
     .clk_i, .rst_i, .meta_valid_i(meta_valid), .meta_ready_o(meta_ready), .meta_i(meta), .light_valid_i(light_valid),
     .light_ready_o(light_ready), .light_i(light), .token_valid_i(token_valid), .token_ready_o(token_ready),
     .token_i(token), .room_i(piece_room), .place_valid_o(area_put), .place_o(area_new), .value_valid_o(value_put),
-    .value_o(value_new), .pixel_valid_o(single_valid), .pixel_ready_i(single_ready[LANES-1]), .pixel_o(single)
+    .value_o(value_new)
   );
-  shade_fifo #(.WIDTH(VALUES_W), .LOG2(FIFO), .BLOCK(1)) u_values (
-    .clk_i, .rst_i, .valid_i(value_put), .data_i(value_new), .valid_o(value_valid), .ready_i(piece_ready),
-    .data_o(value), .taken_o(piece_taken)
-  );
-  logic unused_areas;
-  // written before the values, read with them
-  shade_fifo #(.WIDTH(shade_pkg::PATCH_AREA_W), .LOG2(FIFO), .BLOCK(1)) u_areas (
-    .clk_i, .rst_i, .valid_i(area_put), .data_i(area_new), .valid_o(area_valid), .ready_i(value_valid && piece_ready),
-    .data_o(area), .taken_o(unused_areas)
-  );
-  shade_patch_room #(.LIMIT((1 << FIFO) - 64)) u_piece_room (.clk_i, .rst_i, .put_i(area_put), .taken_i(piece_taken), .room_o(piece_room));
-  logic unused_valid;
-  assign unused_valid = &{1'b0, area_valid, single_ready};  // valid as value_valid
-
-  // ---- lanes --------------------------------------------------------------------------------------------------------------------------
-  assign piece_ready = |lane_ready;
-  for (genvar i = 0; i < LANES; i++) begin : g_lane
-    logic earlier;  // a lane with a lower number takes the piece
-    if (i == 0) begin : g_first
-      assign earlier = 1'b0;
-    end else begin : g_other
-      assign earlier = |lane_ready[i-1:0];
-    end
-    shade_patch_lane u_lane (
-      .clk_i, .rst_i, .valid_i(value_valid && !earlier), .ready_o(lane_ready[i]), .piece_i({value, area}),
-      .single_valid_i(i == LANES - 1 && single_valid), .single_ready_o(single_ready[i]), .single_i(single),
-      .m_axis_pixel_tvalid(m_axis_pixel_tvalid[i]), .m_axis_pixel_tready(m_axis_pixel_tready[i]),
-      .m_axis_pixel_tdata(m_axis_pixel_tdata[i*PIXEL_W+:PIXEL_W]),
-      .m_axis_pixel_tuser(m_axis_pixel_tuser[i*USER_W+:USER_W]), .m_axis_pixel_tlast(m_axis_pixel_tlast[i])
+  if (GROUPS == 1) begin : g_one
+    shade_patch_room #(.LIMIT((1 << DEEP) - 64)) u_room (
+      .clk_i, .rst_i, .put_i(area_put), .taken_i(piece_taken[0]), .room_o(piece_room)
+    );
+    assign {group_area, group_value, piece_taken[1]} = 3'b000;
+  end else begin : g_deal
+    shade_patch_deal #(.LIMIT((1 << DEEP) - 64)) u_deal (
+      .clk_i, .rst_i, .put_i(area_put), .taken_i(piece_taken), .group_o(group_area), .room_o(piece_room)
+    );
+    // a value comes behind its area
+    shade_delay #(.WIDTH(1), .DEPTH(shade_pkg::LATENCY_PATCH_LINES - 1)) u_group (
+      .clk_i, .d_i(group_area), .q_o(group_value)
     );
   end
 
+  // ---- lanes, those of a group one behind the other ---------------------------------------------------------------------
+  for (genvar g = 0; g < GROUPS; g++) begin : g_group
+    logic area_valid, value_valid, unused_areas, piece_ready, unused_valid;
+    logic [AREA_W-1:0] area;
+    logic [VALUES_W-1:0] value;
+    logic [EACH-1:0] lane_ready;
+    shade_fifo #(.WIDTH(VALUES_W), .LOG2(DEEP), .BLOCK(1)) u_values (
+      .clk_i, .rst_i, .valid_i(value_put && group_value == 1'(g)), .data_i(value_new), .valid_o(value_valid),
+      .ready_i(piece_ready), .data_o(value), .taken_o(piece_taken[g])
+    );
+    // written before the values, read with them
+    shade_fifo #(.WIDTH(AREA_W), .LOG2(DEEP), .BLOCK(1)) u_areas (
+      .clk_i, .rst_i, .valid_i(area_put && group_area == 1'(g)), .data_i(area_new), .valid_o(area_valid),
+      .ready_i(value_valid && piece_ready), .data_o(area), .taken_o(unused_areas)
+    );
+    assign piece_ready  = |lane_ready;
+    assign unused_valid = area_valid;  // as value_valid
+    for (genvar n = 0; n < EACH; n++) begin : g_lane
+      localparam int I = g * EACH + n;
+      logic earlier;  // a lane with a lower number takes the piece
+      if (n == 0) begin : g_first
+        assign earlier = 1'b0;
+      end else begin : g_other
+        assign earlier = |lane_ready[n-1:0];
+      end
+      shade_patch_lane u_lane (
+        .clk_i, .rst_i, .valid_i(value_valid && !earlier), .ready_o(lane_ready[n]), .piece_i({value, area}),
+        .single_valid_i(I == LANES - 1 && single_valid), .single_ready_o(single_taken[I]), .single_i(single),
+        .m_axis_pixel_tvalid(m_axis_pixel_tvalid[I]), .m_axis_pixel_tready(m_axis_pixel_tready[I]),
+        .m_axis_pixel_tdata(m_axis_pixel_tdata[I*PIXEL_W+:PIXEL_W]),
+        .m_axis_pixel_tuser(m_axis_pixel_tuser[I*USER_W+:USER_W]), .m_axis_pixel_tlast(m_axis_pixel_tlast[I])
+      );
+    end
+  end
+  assign single_ready = single_taken[LANES-1];
+  logic unused_taken;
+  assign unused_taken = &{1'b0, single_taken};
   always_ff @(posedge clk_i) begin
     error_o <= error_o | error;
     if (error != '0 && !(&error_count_o)) error_count_o <= error_count_o + 16'd1;

@@ -4,11 +4,12 @@
 //   setup ─▶ slots ─▶ walk ─▶ nodes ─▶ light ─▶ lights, metas
 //
 //   beat_*, plan_*, done_o, place_*, box_*   of shade_patch_boxes;   l_i, h_i, excess_i, shift_i, table_*: settings, see shade_patch_light
-//   light_*     {specular, diffuse}, S1.16 each;   meta_*: see shade_patch_nodes
+//   light_*     {specular, diffuse} at nodes, S1.16 each;   meta_*: see shade_patch_nodes, without direct
+//   pixel_*     a pixel that is lit directly: {line, column, tag, specular, diffuse}, U0.16
 //   flags_o     for one clock: bits PATCH_LIGHT_*
 //
 // A light a clock, some 45 clocks behind the plan of a small triangle. They wait in FIFOs deep enough for groups of small triangles, which are slow here, to lend their time to
-// large ones, which are slow at the pixels. Example: a box of 4 x 4 with 16 pixels -> six lights, one meta.
+// large ones, which are slow at the pixels. Example: a box of 4 x 4 with 16 pixels -> six lights, one meta; with 3 pixels -> three pixels.
 module shade_patch_lights #(
   parameter int LIGHTS = 1
 ) (
@@ -39,7 +40,10 @@ module shade_patch_lights #(
   output logic [          2*shade_pkg::INTENSITY_W-1:0] light_o,
   output logic                                          meta_valid_o,
   input  logic                                          meta_ready_i,
-  output logic [           shade_pkg::PATCH_META_W-1:0] meta_o,
+  output logic [           shade_pkg::PATCH_META_W-2:0] meta_o,
+  output logic                                          pixel_valid_o,
+  input  logic                                          pixel_ready_i,
+  output logic [shade_pkg::PATCH_USER_W+shade_pkg::PIXEL_DATA_W-1:0] pixel_o,
   output logic [          shade_pkg::PATCH_FLAGS_W-1:0] flags_o
 );
   localparam int W = shade_pkg::INTENSITY_W;
@@ -67,7 +71,7 @@ module shade_patch_lights #(
   );
 
   // ---- from box to box, from node to node -------------------------------------------------------------------------------------
-  logic walk_valid, walk_take, node_put, light_room, light_put, light_taken, meta_put, short;
+  logic walk_valid, walk_take, node_put, light_room, light_put, meta_put, short;
   logic [LIGHTS*A_W-1:0] a, ac, al, node_a;
   logic [LIGHTS*H_W-1:0] h, hc, hl, node_h;
   logic [P_W-1:0] p, pc, pl, pcc, pll, pcl, node_p;
@@ -90,17 +94,48 @@ module shade_patch_lights #(
     .clk_i, .rst_i, .excess_i, .shift_i, .table_write_i, .table_at_i, .table_i, .valid_i(node_put), .a_i(node_a),
     .h_i(node_h), .p_i(node_p), .valid_o(light_put), .diffuse_o(diffuse), .specular_o(specular), .short_o(short)
   );
-  shade_fifo #(.WIDTH(2 * W), .LOG2(WAIT), .BLOCK(1)) u_lights (
-    .clk_i, .rst_i, .valid_i(light_put), .data_i({specular, diffuse}), .valid_o(light_valid_o), .ready_i(light_ready_i),
-    .data_o(light_o), .taken_o(light_taken)
+
+  // ---- nodes wait for their lines, pixels for a lane ---------------------------------------------------------------------------
+  localparam int USER_W = shade_pkg::PATCH_USER_W;
+  localparam int META_W = shade_pkg::PATCH_META_W - 1;
+  localparam int LIGHT_DELAY = shade_pkg::LATENCY_PATCH_NODES + shade_pkg::LATENCY_DIRECT_LIGHT + (LIGHTS > 1 ? 1 : 0) - 1;
+  logic direct, single, node_taken, pixel_taken, node_room, pixel_room;
+  logic [1:0][shade_pkg::PIXEL_W-1:0] lit;
+  assign direct = meta_new[META_W];
+  shade_delay #(.WIDTH(1), .DEPTH(LIGHT_DELAY)) u_single (.clk_i, .d_i(direct), .q_o(single));
+  shade_saturate #(.WIDTH(W), .OUT_W(shade_pkg::PIXEL_W)) u_diffuse (.x_i(diffuse), .y_o(lit[0]));
+  shade_saturate #(.WIDTH(W), .OUT_W(shade_pkg::PIXEL_W)) u_specular (.x_i(specular), .y_o(lit[1]));
+  shade_fifo #(.WIDTH(2 * W), .LOG2(WAIT), .BLOCK(1)) u_nodes_lit (
+    .clk_i, .rst_i, .valid_i(light_put && !single), .data_i({specular, diffuse}), .valid_o(light_valid_o),
+    .ready_i(light_ready_i), .data_o(light_o), .taken_o(node_taken)
   );
-  shade_patch_room #(.LIMIT((1 << WAIT) - 64)) u_light_room (.clk_i, .rst_i, .put_i(light_put), .taken_i(light_taken), .room_o(light_room));
-  logic unused_metas;
-  // no more than the lights, for which there is room
-  shade_fifo #(.WIDTH(shade_pkg::PATCH_META_W), .LOG2(WAIT), .BLOCK(1)) u_metas (
-    .clk_i, .rst_i, .valid_i(meta_put), .data_i(meta_new), .valid_o(meta_valid_o), .ready_i(meta_ready_i),
-    .data_o(meta_o), .taken_o(unused_metas)
+  shade_fifo #(.WIDTH(2 * shade_pkg::PIXEL_W), .LOG2(WAIT), .BLOCK(1)) u_pixels_lit (
+    .clk_i, .rst_i, .valid_i(light_put && single), .data_i(lit), .valid_o(pixel_valid_o), .ready_i(pixel_ready_i),
+    .data_o(pixel_o[0+:2*shade_pkg::PIXEL_W]), .taken_o(pixel_taken)
   );
+  shade_patch_room #(.LIMIT((1 << WAIT) - 64)) u_node_room (
+    .clk_i, .rst_i, .put_i(light_put && !single), .taken_i(node_taken), .room_o(node_room)
+  );
+  shade_patch_room #(.LIMIT((1 << WAIT) - 64)) u_pixel_room (
+    .clk_i, .rst_i, .put_i(light_put && single), .taken_i(pixel_taken), .room_o(pixel_room)
+  );
+  assign light_room = node_room && pixel_room;
+  // no more than the lights, for which there is room; written before them
+  logic unused_metas, unused_places, place_there;
+  shade_fifo #(.WIDTH(META_W), .LOG2(WAIT), .BLOCK(1)) u_metas (
+    .clk_i, .rst_i, .valid_i(meta_put && !direct), .data_i(meta_new[META_W-1:0]), .valid_o(meta_valid_o),
+    .ready_i(meta_ready_i), .data_o(meta_o), .taken_o(unused_metas)
+  );
+  logic [shade_pkg::PLACE_W-1:0] column, line, pixel_column, pixel_line;
+  logic [shade_pkg::TAG_W-1:0] tag, pixel_tag;
+  assign {column, line, tag} = meta_new[USER_W-1:0];
+  shade_fifo #(.WIDTH(USER_W), .LOG2(WAIT), .BLOCK(1)) u_places (
+    .clk_i, .rst_i, .valid_i(meta_put && direct), .data_i({line, column, tag}), .valid_o(place_there),
+    .ready_i(pixel_valid_o && pixel_ready_i), .data_o({pixel_line, pixel_column, pixel_tag}), .taken_o(unused_places)
+  );
+  assign pixel_o[2*shade_pkg::PIXEL_W+:USER_W] = {pixel_line, pixel_column, pixel_tag};
+  logic unused_there;
+  assign unused_there = place_there;
   always_comb begin
     flags_o = '0;
     flags_o[shade_pkg::PATCH_LIGHT_RANGE] = range;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_patch_pieces: from the light at nodes and the pixels of boxes to pieces of lines for shade_patch_lane.
 //
-//   meta_*, light_*, token_*   of shade_patch_nodes, {specular, diffuse} of shade_patch_light, and shade_patch_clip, from FIFOs
+//   meta_*, light_*, token_*   {deep, kx, ky, column, line, tag} of shade_patch_nodes, {specular, diffuse} of shade_patch_light, and
+//               those of shade_patch_clip, from FIFOs
 //   room_i      stops the walk over lines; up to LATENCY_PATCH_LINES + 1 pieces still come
 //   place_o     {count - 1, column, line, tag} of a piece, LATENCY_PATCH_LINES clocks in front of
 //   value_o     {specular d2, d1, I, diffuse d2, d1, I}: see shade_patch_lines
-//   pixel_valid_o, pixel_o   a pixel that is lit directly, {line, column, tag, specular, diffuse}, until pixel_ready_i
 //
 // A box's nodes are taken while the lines of the one before it are drawn. A line and a light a clock; an empty line above others costs as much.
 // Example: a box of 4 x 4 with 7 pixels in two lines -> six lights taken, two pieces.
@@ -14,7 +14,7 @@ module shade_patch_pieces (
   input  logic                                  rst_i,
   input  logic                                  meta_valid_i,
   output logic                                  meta_ready_o,
-  input  logic [  shade_pkg::PATCH_META_W-1:0]  meta_i,
+  input  logic [  shade_pkg::PATCH_META_W-2:0]  meta_i,
   input  logic                                  light_valid_i,
   output logic                                  light_ready_o,
   input  logic [2*shade_pkg::INTENSITY_W-1:0]   light_i,
@@ -25,10 +25,7 @@ module shade_patch_pieces (
   output logic                                  place_valid_o,
   output logic [ shade_pkg::PATCH_AREA_W-1:0]   place_o,
   output logic                                  value_valid_o,
-  output logic [6*shade_pkg::PATCH_VALUE_W-1:0] value_o,
-  output logic                                  pixel_valid_o,
-  input  logic                                  pixel_ready_i,
-  output logic [shade_pkg::PATCH_USER_W+shade_pkg::PIXEL_DATA_W-1:0] pixel_o
+  output logic [6*shade_pkg::PATCH_VALUE_W-1:0] value_o
 );
   localparam int W = shade_pkg::INTENSITY_W;
   localparam int VALUE_W = shade_pkg::PATCH_VALUE_W;
@@ -39,21 +36,19 @@ module shade_patch_pieces (
   localparam int LATE = shade_pkg::PATCH_LINES_LATE;
   localparam int BOX_W = LOG2 + 6 + 2 * PLACE_W + TAG_W;
 
-  // ---- nodes: six of a box, or a pixel -----------------------------------------------------------------------------------------
-  logic direct, node, whole, single, free_q, load_q, waits_q, load, step, done;
+  // ---- nodes: six of a box -----------------------------------------------------------------------------------------------------
+  logic node, whole, free_q, load_q, waits_q, load, step, done;
   logic [2:0] node_q;
   logic [LATE-1:0] loads_q, steps_q;
-  logic [BOX_W-1:0] box, coming_q, box_q;
-  assign {direct, box} = meta_i;
+  logic [BOX_W-1:0] coming_q, box_q;
   // the last nodes of a box when there is room for its coefficients
-  assign node          = meta_valid_i && light_valid_i && !direct && (!node_q[2] || free_q || loads_q[LATE-1]);
+  assign node          = meta_valid_i && light_valid_i && (!node_q[2] || free_q || loads_q[LATE-1]);
   assign whole         = node && node_q == 3'd5;
-  assign single        = meta_valid_i && light_valid_i && direct && (!pixel_valid_o || pixel_ready_i);
-  assign light_ready_o = node || single;
-  assign meta_ready_o  = whole || single;
+  assign light_ready_o = node;
+  assign meta_ready_o  = whole;
   always_ff @(posedge clk_i) begin
     if (node) node_q <= whole ? 3'd0 : node_q + 3'd1;
-    if (whole) coming_q <= box;
+    if (whole) coming_q <= meta_i;
     load_q <= whole;
     if (load_q) waits_q <= 1'b1;
     else if (load) waits_q <= 1'b0;
@@ -114,20 +109,6 @@ module shade_patch_pieces (
   always_ff @(posedge clk_i) begin
     place_valid_o <= step && !empty && !rst_i;
     place_o       <= {LOG2'(count - (LOG2 + 1)'(1)), column + PLACE_W'(first), line_q, tag};
-  end
-
-  // ---- pixels that are lit directly ------------------------------------------------------------------------------------------------
-  logic [1:0][shade_pkg::PIXEL_W-1:0] lit;
-  logic [LOG2+5:0] unused_size;
-  logic [PLACE_W-1:0] single_column, single_line;
-  logic [TAG_W-1:0] single_tag;
-  assign {unused_size, single_column, single_line, single_tag} = box;
-  for (genvar c = 0; c < 2; c++) begin : g_lit
-    assign lit[c] = light_i[c*W+W-1] ? '0 : light_i[c*W+W-2] ? '1 : light_i[c*W+:shade_pkg::PIXEL_W];
-  end
-  always_ff @(posedge clk_i) begin
-    if (single) pixel_o <= {single_line, single_column, single_tag, lit};
-    pixel_valid_o <= !rst_i && (single || (pixel_valid_o && !pixel_ready_i));
   end
 
   // ---- values ------------------------------------------------------------------------------------------------------------------

@@ -233,6 +233,7 @@ PATCH_VALUE_F = 2  # more fraction bits of a polynomial
 PATCH_VALUE_W = 20  # S1.18: of a lane's state, modulo 4
 PATCH_FIFO_LOG2 = 9  # the depth of a block RAM
 PATCH_WAIT_LOG2 = 11  # lights that wait for their box to be drawn
+PATCH_RUNS_LOG2 = 11  # runs that wait for the plan of their triangle
 PATCH_PIECES_LOG2 = 10  # pieces that wait for half of the lanes
 PATCH_PIXELS_LOG2 = 6  # pixels that wait for a lane's consumer
 PATCH_SPARE = 16  # words that shade_patch_tokens keeps free for what is on its way

@@ -50,6 +50,7 @@ module shade_patch_boxes #(
   localparam int AT_W = shade_pkg::PATCH_AT_W;
   localparam int LOG2 = shade_pkg::PATCH_LOG2_MAX;
   localparam int FIFO = shade_pkg::PATCH_FIFO_LOG2;
+  localparam int RUNS = shade_pkg::PATCH_RUNS_LOG2;
   localparam int DATA_W = shade_pkg::SURFACE_DATA_W;
 
   // ---- triangles and runs: of no more triangles than there is room for their beats ---------------------------------------------
@@ -72,11 +73,11 @@ module shade_patch_boxes #(
     .clk_i, .rst_i, .valid_i(place_put), .data_i(place_new), .valid_o(place_valid_o), .ready_i(place_ready_i),
     .data_o(place_o), .taken_o(unused_places)
   );
-  shade_fifo #(.WIDTH(shade_pkg::PATCH_RUN_W), .LOG2(FIFO), .BLOCK(1)) u_runs (
+  shade_fifo #(.WIDTH(shade_pkg::PATCH_RUN_W), .LOG2(RUNS), .BLOCK(1)) u_runs (
     .clk_i, .rst_i, .valid_i(run_put), .data_i(run_new), .valid_o(run_valid), .ready_i(run_ready), .data_o(run),
     .taken_o(run_taken)
   );
-  shade_patch_room #(.LIMIT((1 << FIFO) - 8)) u_run_room (.clk_i, .rst_i, .put_i(run_put), .taken_i(run_taken), .room_o(run_room));
+  shade_patch_room #(.LIMIT((1 << RUNS) - 8)) u_run_room (.clk_i, .rst_i, .put_i(run_put), .taken_i(run_taken), .room_o(run_room));
 
   // ---- plans ---------------------------------------------------------------------------------------------------------------------
   logic far_beat_valid, far_beat_ready, far_valid, far_take, planned, row_plan_valid, rows_take;

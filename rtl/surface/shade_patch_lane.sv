@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // shade_patch_lane: the pixels of a piece of a line, two additions a channel each.
 //
-//   piece_i     {specular d2, d1, I, diffuse d2, d1, I, count - 1, column, line, tag}: I S2.22, its step and the step's step
+//   piece_i     {specular d2, d1, I, diffuse d2, d1, I, count - 1, column, line, tag}: I S1.18, its step and the step's step
 //   ready_o     the piece is taken, with the last pixel of the one before at the earliest
 //   single_i    {line, column, tag, specular, diffuse}, a pixel that is lit directly: it comes first, single_ready_o takes it
 //   m_axis_*    tdata = {specular, diffuse}, U0.16; tuser = {line, column, tag}; tlast = the piece's last pixel

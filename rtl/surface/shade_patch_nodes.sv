@@ -45,7 +45,7 @@ module shade_patch_nodes #(
   // ---- the walk: node 0 .. 5, or the pixels that are left ----------------------------------------------------------------------
   logic busy_q, step, last, direct_q, first_q;
   logic [2:0] node_q;
-  logic [15:0] left_q, rest;
+  logic [15:0] left_q, rest_q, coming;  // pixels; those behind the first one of them
   logic [3:0] pixel;
   logic signed [1:0] i, j;
   logic [LOG2+5:0] size_q;  // deep, kx, ky
@@ -53,11 +53,11 @@ module shade_patch_nodes #(
   logic [TAG_W-1:0] tag_q;
   assign take_o = valid_i && (!busy_q || (step && last));
   assign step   = busy_q && room_i;
-  assign rest   = left_q & (left_q - 16'd1);
+  assign coming = !busy_q || last ? place_i[shade_pkg::PATCH_META_W-LOG2-1+:16] : rest_q;
   always_comb begin
     pixel = '0;
     for (int n = 15; n >= 0; n--) if (left_q[n]) pixel = 4'(n);
-    last = direct_q ? rest == '0 : node_q == 3'd5;
+    last = direct_q ? rest_q == '0 : node_q == 3'd5;
     // -2 .. 1 of a pixel is its place less 2: the upper bit turned over
     if (direct_q) {j, i} = pixel ^ 4'b1010;
     else begin
@@ -66,12 +66,15 @@ module shade_patch_nodes #(
     end
   end
   always_ff @(posedge clk_i) begin
+    if (take_o || step) begin
+      left_q <= coming;
+      rest_q <= coming & (coming - 16'd1);
+    end
     if (take_o) begin
       {direct_q, size_q[LOG2+5:6], left_q, size_q[5:0], column_q, line_q, tag_q} <= place_i;
       first_q <= 1'b1;
       node_q  <= '0;
     end else if (step) begin
-      left_q  <= rest;
       first_q <= 1'b0;
       node_q  <= node_q + 3'd1;
     end

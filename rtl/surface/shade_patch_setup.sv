@@ -13,7 +13,7 @@
 //   2 + 2 i, + 1   of light i: M.L; -; c.L; l.L, and the same with H
 //
 // Exact products, shifted, what is shifted out is cut. Three multipliers make a dot product a clock: a triangle in 8 + 6 LIGHTS
-// clocks. Latency 6 clocks from the last product. Source: P4's constant increment. Example: Gx = Gy = 0, N = L = H -> P = M.L = M.H = 1, others 0.
+// clocks. Latency 7 clocks from the last product. Source: P4's constant increment. Example: Gx = Gy = 0, N = L = H -> P = M.L = M.H = 1, others 0.
 module shade_patch_setup #(
   parameter int LIGHTS = 1
 ) (
@@ -117,8 +117,12 @@ module shade_patch_setup #(
   localparam int RESULT_W = shade_pkg::PATCH_SCALAR_W;
   logic signed [2*W-1:0] px, py, pz;
   logic signed [RESULT_W-1:0] result_q;
+  // the factors are chosen in a clock of their own
+  shade_pkg::vec_t now_q, other_q;
+  logic [4:0] shift_q;
+  always_ff @(posedge clk_i) {now_q, other_q, shift_q} <= {now, other, shift};
   shade_dot_scaled u_dot (
-    .clk_i, .a_i(now), .b_i(other), .shift_i(shift), .product_x_o(px), .product_y_o(py), .product_z_o(pz), .d_o(result_q)
+    .clk_i, .a_i(now_q), .b_i(other_q), .shift_i(shift_q), .product_x_o(px), .product_y_o(py), .product_z_o(pz), .d_o(result_q)
   );
 
   // ---- where a product goes, beside it ------------------------------------------------------------------------------------------
@@ -144,9 +148,9 @@ module shade_patch_setup #(
     endcase
   end
   localparam int MUL = shade_pkg::LATENCY_MUL;
-  localparam int LATENCY = shade_pkg::LATENCY_DOT_SCALED;
+  localparam int LATENCY = shade_pkg::LATENCY_DOT_SCALED + 1;
   shade_delay #(.WIDTH($bits(job)), .DEPTH(LATENCY)) u_job (.clk_i, .d_i(job), .q_o(job_q));
-  shade_delay #(.WIDTH(2), .DEPTH(MUL)) u_parts (.clk_i, .d_i(parts), .q_o(parts_p));
+  shade_delay #(.WIDTH(2), .DEPTH(MUL + 1)) u_parts (.clk_i, .d_i(parts), .q_o(parts_p));
   shade_valid #(.DEPTH(LATENCY)) u_valid (.clk_i, .rst_i, .valid_i(made), .valid_o(made_q));
 
   // ---- M -------------------------------------------------------------------------------------------------------------------------

@@ -249,7 +249,7 @@ package shade_pkg;
   localparam int PATCH_FIFO_LOG2 = 9;  // the depth of a block RAM
   localparam int PATCH_WAIT_LOG2 = 11;  // lights that wait for their box to be drawn
   localparam int PATCH_RUNS_LOG2 = 11;  // runs that wait for the plan of their triangle
-  localparam int PATCH_PIECES_LOG2 = 10;  // pieces that wait for half of the lanes
+  localparam int PATCH_PIECES_LOG2 = 11;  // pieces that wait for half of the lanes
   localparam int PATCH_PIXELS_LOG2 = 6;  // pixels that wait for a lane's consumer
   localparam int PATCH_SPARE = 16;  // words that shade_patch_tokens keeps free for what is on its way
   localparam int PATCH_LIGHT_RANGE = 0;  // bits of the flags of patches: a normal or an increment that does not fit S1.16

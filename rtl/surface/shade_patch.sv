@@ -151,7 +151,7 @@ module shade_patch #(
   end
   assign single_ready = single_taken[LANES-1];
   logic unused_taken;
-  assign unused_taken = &{1'b0, single_taken};
+  assign unused_taken = &{1'b0, single_taken, piece_taken};
   always_ff @(posedge clk_i) begin
     error_o <= error_o | error;
     if (error != '0 && !(&error_count_o)) error_count_o <= error_count_o + 16'd1;

@@ -169,7 +169,7 @@ package shade_pkg;
 
   // triangles
   localparam int SUBPIXEL_F = 8;  // a vertex stands on a grid of 1/256 pixel
-  localparam int GROWTH_W = 40;  // increments of a normal, S10.29, of a depth, S9.30: a way from a vertex has 8 fraction bits
+  localparam int GROWTH_W = 40;
   localparam int COORDINATE_W = 24;  // S15.8: vertices up to 32768 pixels from the frame's first pixel
   localparam int DEPTH_F = 24;  // depth of a vertex and of a pixel, U0.24 in [0, 1)
   localparam int VERTEX_F = 16;  // components of a vertex' normal, S0.16 in [-1, 1)

@@ -309,11 +309,12 @@ def machines(machine: tuple[str, ...]) -> None:
 
 @cli.command()
 @click.argument("module", nargs=-1)
-def synth(module: tuple[str, ...]) -> None:
-    """Synthesize every module (or those named) for every FPGA family; leaves build/synth.json."""
+@click.option("--family", multiple=True, help="An FPGA family such as nexus; any number of times.")
+def synth(module: tuple[str, ...], family: tuple[str, ...]) -> None:
+    """Synthesize every module (or those named) for FPGA families; leaves build/synth.json."""
     from polyshade.scripts.flow import synth as command
 
-    command.main(list(module))
+    command.main(list(module), family)
 
 
 @cli.command()

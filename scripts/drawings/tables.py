@@ -15,6 +15,7 @@ import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from polyshade.scripts.flow.families import FAMILIES
 from polyshade.scripts.report import save
 from polyshade.sim.sources import BUILD, ROOT
 
@@ -38,6 +39,11 @@ def rounded(value: object, digits: int = 4) -> object:
 def of_synth(report: dict) -> Figures:
     """Area and clock rate of every module, families with an entry."""
     return {name: {family: part for family, part in found.items() if part} for name, found in report.items()}
+
+
+def of_families(report: dict) -> Figures:
+    """The direct form on every family."""
+    return report.get("shade_direct", {})
 
 
 def of_units(report: dict) -> Figures:
@@ -75,6 +81,7 @@ def as_it_is(report: dict) -> Figures:
 REPORTS: dict[str, tuple[str, Callable]] = {  # part of the extract: report in build, what is taken of it
     "machines": ("machines.json", as_it_is),
     "synth": ("synth.json", of_synth),
+    "families": ("synth.json", of_families),
     "units": ("units.json", of_units),
     "papers": ("papers.json", of_papers),
     "bench": ("bench.json", as_it_is),
@@ -90,7 +97,7 @@ def extract(figures: Figures, build: Path = BUILD, told: Callable[[str], None] =
             told(f"build/{name}: not there, its tables stay as they are: {command(part)}")
             continue
         made, before = rounded(take(json.loads((build / name).read_text()))), figures.get(part, ())
-        if 2 * len(made) < len(before):  # of a run that was asked for a few modules
+        if not made or 2 * len(made) < len(before):  # of a run that was asked for a few modules
             told(f"build/{name}: {len(made)} of {len(before)} entries, its tables stay as they are: {command(part)}")
             continue
         figures = figures | {part: made}
@@ -99,7 +106,7 @@ def extract(figures: Figures, build: Path = BUILD, told: Callable[[str], None] =
 
 def command(part: str) -> str:
     """By what a report is made."""
-    return "polyshade gallery" if part == "gallery" else f"make {part}"
+    return {"gallery": "polyshade gallery", "families": "polyshade synth shade_direct"}.get(part, f"make {part}")
 
 
 # ---- tables --------------------------------------------------------------------------------------------------------
@@ -188,6 +195,19 @@ def synth(figures: Figures) -> str:
     return markdown(head, rows)
 
 
+def families(figures: Figures) -> str:
+    """The direct form on every family: area; clock rate, or why there is none."""
+    head = ["family", "device", *(key.upper() for key in AREA[:3]), "block RAM", "MHz", "not placed"]
+    rows = []
+    for name, each in FAMILIES.items():
+        if found := figures["families"].get(name):
+            no = "not tried" if each.placer else "no nextpnr as a wheel"
+            why = found.get("unplaced", None if found["fmax_mhz"] else no)
+            device = each.placer.device if each.placer else None
+            rows.append([each.title, device, *(found[key] for key in AREA), fixed(found["fmax_mhz"], 0), why])
+    return markdown(head, rows)
+
+
 def units(figures: Figures) -> str:
     """Every unit: vectors, worst error, latency, throughput."""
     head = ["unit / form", "vectors", "all inputs", "mismatches", "worst error, ulp", "latency", "per clock"]
@@ -243,6 +263,7 @@ TABLES: dict[str, tuple[str, Callable[[Figures], str]]] = {  # name: part of the
     "machines": ("machines", machines),
     "choice": ("machines", choice),
     "synth": ("synth", synth),
+    "families": ("families", families),
     "units": ("units", units),
     "papers": ("papers", papers),
     "bench": ("bench", bench),

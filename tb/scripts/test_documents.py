@@ -75,9 +75,12 @@ MACHINE = {
     "lut": 1, "ff": 2, "dsp": 3, "bram": 4, "fmax_mhz": 150.0, "pixels_per_clock": {"head1024": 0.95},
     "evaluations_per_pixel": {"32": 0.2}, "nmse_diffuse": {"32": 1e-7}, "nmse_specular": {"32": 2.5e-6},
 }  # fmt: skip
+ECP5 = {"lut": 1, "ff": 2, "dsp": 3, "bram": 4, "fmax_mhz": 5.0}
+SYNTH = {"m": {"ecp5": ECP5, "xilinx": None}, "shade_direct": {"ecp5": ECP5}}
 REPORTS = {
+    "families": SYNTH,
     "machines": {"patch/4/all/4": MACHINE, "direct/1/blinn/1": MACHINE},
-    "synth": {"m": {"ecp5": {"lut": 1, "ff": 2, "dsp": 3, "bram": 4, "fmax_mhz": 5.0}, "xilinx": None}},
+    "synth": SYNTH,
     "units": {"m/refined": {"vectors": 1, "exhaustive": True, "mismatches": 0, "max_error_ulp": 0.5}},
     "papers": [{"paper": "P1", "claim": "c", "claimed": "1", "measured": "2", "holds": False}],
     "bench": {"b": {"value": 12345678.0, "unit": "u", "versus": "v", "ratio": 2.0}},
@@ -103,7 +106,7 @@ def test_every_table_is_made(tmp_path: Path) -> None:
 def test_reports_that_are_not_there(tmp_path: Path) -> None:
     """A line for each; what the documents show stays, also when a report holds a few modules only."""
     before, lines = {"synth": {key: {} for key in "abc"}, "formal": {"m": {}}}, []
-    (tmp_path / "synth.json").write_text(json.dumps(REPORTS["synth"]))
+    (tmp_path / "synth.json").write_text(json.dumps({"m": SYNTH["m"]}))
     assert tables.extract(before, tmp_path, lines.append) == before
     assert "build/synth.json: 1 of 3 entries, its tables stay as they are: make synth" in lines
     assert "build/gallery/report.json: not there, its tables stay as they are: polyshade gallery" in lines

@@ -85,6 +85,13 @@ def test_harness_registers_every_port() -> None:
         ("ice40", {"SB_LUT4": 4, "SB_CARRY": 4, "SB_DFFSR": 2, "SB_MAC16": 1, "SB_RAM40_4K": 3}, (4, 2, 1, 3)),
         ("gowin", {"LUT3": 2, "ALU": 8, "MUX2_LUT5": 5, "DFFRE": 4, "MULT18X18": 1, "SDPB": 1}, (10, 4, 1, 1)),
         ("xilinx7", {"LUT6": 2, "CARRY4": 3, "MUXF7": 1, "SRL16E": 2, "RAM32M": 1, "FDRE": 7}, (8, 7, 0, 0)),
+        ("nexus", {"LUT4": 1, "CCU2": 2, "FD1P3IX": 3, "MULT18X18": 4, "PDPSC16K": 5}, (5, 3, 4, 5)),
+        ("machxo2", {"LUT4": 1, "CCU2D": 1, "TRELLIS_FF": 2, "DP8KC": 3}, (3, 2, 0, 3)),
+        ("gatemate", {"CC_L2T4": 1, "CC_ADDF": 2, "CC_DFF": 3, "CC_MULT": 4, "CC_BRAM_40K": 5}, (3, 3, 4, 10)),
+        ("cyclonev", {"MISTRAL_ALUT6": 1, "MISTRAL_FF": 2, "MISTRAL_MUL18X18": 3, "MISTRAL_M10K": 4}, (1, 2, 3, 4)),
+        ("polarfire", {"CFG3": 1, "ARI1": 1, "SLE": 2, "MACC_PA": 3, "RAM1K20": 4}, (2, 2, 3, 4)),
+        ("efinix", {"EFX_LUT4": 1, "EFX_ADD": 1, "EFX_FF": 2, "EFX_RAM_5K": 4}, (2, 2, 0, 4)),
+        ("ultrascale", {"LUT6": 1, "FDRE": 2, "DSP48E2": 3, "RAMB18E2": 1, "RAMB36E2": 1}, (1, 2, 3, 3)),
         ("xilinx7", {"DSP48E1": 2, "RAMB18E1": 1, "RAMB36E1": 1}, (0, 0, 2, 3)),
     ],
 )
@@ -129,6 +136,35 @@ def test_unknown_module() -> None:
     """A name that is none is refused with the names that are."""
     with pytest.raises(UserError, match="shade_nothing: no such module, allowed shade_"):
         synth.main(["shade_nothing"])
+
+
+def test_unknown_family() -> None:
+    """So is a family, before any work."""
+    with pytest.raises(UserError, match=r"^virtex: no such family, allowed ecp5, ice40, nexus, machxo2, gowin, gate"):
+        synth.main(["shade_round"], ("virtex",))
+    assert not synth.OUT.exists()
+
+
+def test_named_family(monkeypatch) -> None:
+    """It is placed, its entry is added to those that are there; where it does not fit, the report tells why."""
+    monkeypatch.setattr(synth, "place_and_route", lambda folder: (7, 123.4))
+
+    def synthesize(design: synth.Design, name: str) -> dict[str, int]:
+        (design.folder / name).mkdir()
+        return {"lut": 3, "ff": 0, "dsp": 0, "bram": 0}
+
+    monkeypatch.setattr(synth, "synthesize", synthesize)
+    synth.main(["shade_round"])
+
+    def nextpnr(*_given) -> str:
+        raise UserError("nextpnr-nexus.log: ERROR: no room")
+
+    monkeypatch.setattr(tools, "nextpnr", nextpnr)
+    report = synth.main(["shade_round"], ("nexus",))
+    assert list(report["shade_round"]) == ["ecp5", "ice40", "gowin", "xilinx7", "nexus"]
+    assert report["shade_round"]["nexus"]["lut"] == 3
+    assert report["shade_round"]["nexus"]["fmax_mhz"] is None
+    assert report["shade_round"]["nexus"]["unplaced"] == "no room"
 
 
 def test_a_tool_that_fails_tells_its_cause(tmp_path) -> None:

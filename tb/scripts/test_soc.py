@@ -16,13 +16,13 @@ def test_without_litex(tmp_path, monkeypatch) -> None:
 
 @pytest.mark.full
 def test_picture(tmp_path) -> None:
-    told = soc.draw(12, tmp_path)
+    told = soc.draw(16, tmp_path)
     assert told["pixels"] > 50 and told["mismatches"] == 0 and not told["first"]
 
 
 @pytest.mark.full
 def test_a_wrong_word_is_found(tmp_path, monkeypatch) -> None:
-    """The program gets another light than the golden model."""
+    """The program gets another highlight (K1) than the golden model."""
     plain = soc.drawing
     monkeypatch.setattr(soc, "drawing", lambda lines, words: plain(lines, words | {0x84: words[0x84] // 2}))
-    assert soc.draw(8, tmp_path)["mismatches"] > 0
+    assert soc.draw(16, tmp_path)["mismatches"] > 0

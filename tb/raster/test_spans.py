@@ -186,13 +186,6 @@ def test_a_triangle_alone_equals_one_in_a_stream() -> None:
     same(join([golden.take(v, [row, row]) for row in range(len(v))]), view)
 
 
-def test_a_frame_by_vertices() -> None:
-    """The core shades what shade_spans scanned: 0 mismatches, as small an error as by the host."""
-    told = frame.render(frame.Settings(camera=Camera(size=96), scan="rtl")).report
-    assert (told["scan"], told["mismatches"], told["coverage_mismatches"], told["depth_mismatches"]) == ("rtl", 0, 0, 0)
-    assert told["nmse"] < 2e-8
-
-
 def test_refused_before_the_work() -> None:
     """Vertices out of range, and variants that need a cosine: one line each."""
     with pytest.raises(UserError, match="32768 pixels away or more"):

@@ -32,7 +32,7 @@ def drawn(stream: dict[str, np.ndarray], l: np.ndarray, h: np.ndarray, table: Lo
     return run
 
 
-@pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.5, 0), (0, 0.5), (0.3, 0.3)])
+@pytest.mark.parametrize(("in_gap", "out_stall"), [(0, 0), (0.5, 0), (0, 0.9), (0.3, 0.3)])
 @pytest.mark.parametrize("faults", [0.0, 0.3])
 def test_packets(faults: float, in_gap: float, out_stall: float) -> None:
     """Triangles of any kind, steep, short, of no length; the next one is unharmed by one that is at fault."""
@@ -79,9 +79,3 @@ def test_head(size: int, pixels_per_clock: float) -> None:
         pixels = direct(*stream.values(), l, h, chords(material, LIGHT)).pixels[seen] / 65536
         exact = material.channels(normal, LIGHT).clip(0, 1)
         assert np.all(((pixels - exact) ** 2).sum(axis=0) <= 1e-7 * (exact**2).sum(axis=0)), shininess
-
-
-def test_nothing_comes_of_nothing() -> None:
-    """The sink takes nothing for long: pixels wait, none is lost."""
-    rng = np.random.default_rng([SEED, 3])
-    drawn(packets(rng, 200), direction(rng), direction(rng), lobe(), out_stall=0.9)

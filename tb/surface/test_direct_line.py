@@ -22,9 +22,10 @@ def coefficients(bench: Bench, rows: int) -> Coefficients:
     return Coefficients(*(bench.rng.integers(*fields[name].range, rows) for name in Coefficients._fields))
 
 
-async def play(bench: Bench, triangles: int, thrift: float) -> None:
+@checked(thrift=[0.0, 0.7])
+async def runs(bench: Bench, thrift: float) -> None:
     """Runs to the right, to the left, farther down; some that are not good; starts are taken when they come."""
-    dut, rng, mask = bench.dut, bench.rng, (1 << k.DIRECT_P_W) - 1
+    dut, rng, mask, triangles = bench.dut, bench.rng, (1 << k.DIRECT_P_W) - 1, 60
     found = coefficients(bench, triangles)
     given = found._asdict() | {
         "p_column": found.p_column + found.p_columns & mask, "p_line": found.p_line + found.p_lines & mask,
@@ -75,8 +76,3 @@ async def play(bench: Bench, triangles: int, thrift: float) -> None:
         v = unpack(START, np.frombuffer(start.to_bytes(4 * size, "little"), "<u4"))
         values = [int(v[name]) for name in ("count", "tag", "at.a", "at.h", "at.p", "a_column")]
         assert values == [count, tag, a, y, p, a_column], i
-
-
-@checked(thrift=[0.0, 0.7])
-async def runs(bench: Bench, thrift: float) -> None:
-    await play(bench, 60, thrift)

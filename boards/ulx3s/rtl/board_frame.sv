@@ -19,29 +19,22 @@ module board_frame #(
   input  logic [16:0] show_i,
   output logic [11:0] light_o
 );
-  logic [10:0] depths[0:PIXELS-1];
-  logic [11:0] lights_a[0:PIXELS-1];
-  logic [11:0] lights_b[0:PIXELS-1];
   logic [16:0] to;
   logic [10:0] depth;
   logic [11:0] light, light_a, light_b;
-  logic put_a, put_b;
+  logic put;
+  assign put   = clear_i || write_i;
   assign to    = clear_i ? clear_at_i : at_i;
   assign depth = clear_i ? 11'h7ff : depth_i;
   assign light = clear_i ? 12'd0 : light_i;
-  assign put_a = (clear_i || write_i) && !back_i;
-  assign put_b = (clear_i || write_i) && back_i;
-  always_ff @(posedge clk_i) begin
-    if (clear_i || write_i) depths[to] <= depth;
-    depth_o <= depths[at_i];
-  end
-  always_ff @(posedge clk_i) begin
-    if (put_a) lights_a[to] <= light;
-    light_a <= lights_a[show_i];
-  end
-  always_ff @(posedge clk_i) begin
-    if (put_b) lights_b[to] <= light;
-    light_b <= lights_b[show_i];
-  end
+  board_memory #(.WIDTH(11), .DEPTH(PIXELS)) u_depth (
+    .clk_i, .write_i(put), .to_i(to), .data_i(depth), .at_i, .data_o(depth_o)
+  );
+  board_memory #(.WIDTH(12), .DEPTH(PIXELS)) u_light_a (
+    .clk_i, .write_i(put && !back_i), .to_i(to), .data_i(light), .at_i(show_i), .data_o(light_a)
+  );
+  board_memory #(.WIDTH(12), .DEPTH(PIXELS)) u_light_b (
+    .clk_i, .write_i(put && back_i), .to_i(to), .data_i(light), .at_i(show_i), .data_o(light_b)
+  );
   always_ff @(posedge clk_i) light_o <= back_i ? light_a : light_b;
 endmodule

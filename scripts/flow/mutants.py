@@ -543,13 +543,29 @@ def judge(target: Target, count: int = COUNT, seed: int = SEED, bench: bool = Tr
     """The report of a module."""
     faults, began = netlist(target, count, seed), time.monotonic()
     alive = list(range(1, len(faults.mutants) + 1))
+    quick = engines(target, False)
+    benches = engines(target, bench)[len(quick) :]
+    answers: dict[int, str] = {}
+
+    def attack(engine: Callable[[Netlist, list[int]], Iterable[int]]) -> None:
+        able = [mutant for mutant in alive if answers.get(mutant) != "equivalent"]
+        dead = set(engine(faults, able)) if able else set()
+        alive[:] = [mutant for mutant in alive if mutant not in dead]
+
+    def settle() -> None:
+        for mutant in [mutant for mutant in alive if mutant not in answers] if decide else ():
+            answers[mutant] = difference(target, faults, mutant)
+
     with sim.netlists(lambda module, point: faults.verilog):
-        for engine in engines(target, bench):
-            dead = set(engine(faults, alive)) if alive else set()
-            alive = [mutant for mutant in alive if mutant not in dead]
-        answers = dict.fromkeys(alive, "equivalent") if alive and exhausted(target, faults, alive) else {}
-    for mutant in [mutant for mutant in alive if mutant not in answers] if decide else ():
-        answers[mutant] = difference(target, faults, mutant)
+        for engine in quick:
+            attack(engine)
+        if alive and exhausted(target, faults, alive):
+            answers = dict.fromkeys(alive, "equivalent")
+        if quick:  # cheaper than a bench, which kills none that is equivalent
+            settle()
+        for engine in benches:
+            attack(engine)
+    settle()
     equal = [mutant for mutant, answer in answers.items() if answer == "equivalent"]
     survived = [mutant for mutant in alive if mutant not in equal]
     return {

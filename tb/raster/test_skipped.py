@@ -13,11 +13,16 @@ from tb.runner import SEED
 
 @pytest.mark.parametrize("often", [0.001, 1.0])
 def test_counts(often: float) -> None:
-    """Any kinds at once, in every clock as many as were told: seldom, from 0 on, and often, up to the limit."""
+    """Any kinds at once, in every clock as many as were told: seldom, from 0 on, and often, up to the limit.
+
+    Every second clock tells nothing, so that a count just below the limit has to stay there.
+    """
     rng = np.random.default_rng(SEED)
     names = [leaf.name for leaf in FATE.leaves()]
     rates = often * np.linspace(0.7, 1, len(names))
-    told = {name: (rng.random(100_000) < rate).astype(np.int64) for name, rate in zip(names, rates, strict=True)}
+    told = {
+        name: (rng.random(200_000) < rate) * (np.arange(200_000) % 2) for name, rate in zip(names, rates, strict=True)
+    }
     run = sim.load("shade_skipped").run(**{f"told_i.{name}": bits for name, bits in told.items()}, latency=1)
     kinds = {leaf.name: (leaf.name,) for leaf in SKIPPED.leaves()} | {"empty": ("outside", "between")}
     for name, parts in kinds.items():

@@ -232,7 +232,9 @@ def _netlist(target: Target, files: list[Path], count: int, seed: int, folder: P
         ),
         folder,
     )
-    (folder / "netlist.v").write_text(_with_parameters(target, (folder / "bare.v").read_text(), folder))
+    # a fault may choose two ways of a case at once, which is for the tests to see, not for the simulator
+    text = (folder / "bare.v").read_text().replace("// synopsys parallel_case", "")
+    (folder / "netlist.v").write_text(_with_parameters(target, text, folder))
     _alone(target, names, folder)
     (folder / "mutants.json").write_text(json.dumps([told(line) for line in lines]))
     for name in ("plain.il", "bare.v"):
@@ -635,7 +637,15 @@ def _job(target: Target, count: int, seed: int) -> dict:
     files = [target.file, *([ROOT / target.bench.partition("::")[0]] if target.bench else [])]
     files += [*(ROOT / "tb").glob("*.py"), *(ROOT / "sim" / "units").glob("*.py")]
     tests = [path.read_bytes() for path in sorted({path for path in files if path})]
-    key = key_of(target, seed, [path.read_bytes() for path in reached(target.top)], tests, NAMED.get(target.module))
+    key = key_of(
+        target,
+        seed,
+        [path.read_bytes() for path in reached(target.top)],
+        tests,
+        NAMED.get(target.module),
+        VECTORS,
+        ITEMS,
+    )
     path = WORK / f"{target.module}-{count}-{key}.json"
     if not path.exists():
         save(path, judge(target, count, seed))

@@ -94,7 +94,6 @@ ALL = [
     Proof("door", ("shade_door",)),
     Proof("room", ("shade_patch_room",)),
     Proof("widen", ("shade_widen",)),
-    Proof("tokens", ("shade_patch_tokens",), depth=24, seconds=100, quick=False),
     Proof("direct_door", ("shade_direct_door",), seconds=60),
     Proof("registers", ("shade_registers",), depth=40, quick=False),
     Proof("collect", ("shade_collect",), quick=False),

@@ -43,7 +43,7 @@ from tqdm import tqdm
 
 OUT = BUILD / "soak.json"
 MINUTES = (0.01, 7 * 24 * 60)
-VECTORS = 200_000
+VECTORS = 2_000_000  # of a unit: an item of a second
 ONE = 1 << k.INTENSITY_F
 PAUSES = (0.0, 0.0, 0.3, 0.7)
 CORES = (  # few points, as each is compiled
@@ -126,7 +126,7 @@ def unit(rng: np.random.Generator, seed: int) -> Outcome:
     case = every[int(rng.integers(len(every)))]
     if case.all_vectors:  # `make test` has them all; here a chunk of them
         case = next(other for other in [*every[every.index(case) :], *every] if other.vectors)
-    result = case.check(min(VECTORS, 8 * case.chunk), seed)
+    result = case.check(min(VECTORS, 64 * case.chunk), seed, errors=False)
     return Outcome("unit", seed, result.vectors, result.mismatches, result.first_mismatch, {"unit": str(case)})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from polyshade.golden import contract as k
@@ -47,24 +48,14 @@ def coefficient(name: str, nodes: int, form: str) -> Callable[[Arrays], np.ndarr
 
 
 def _coef(form: str) -> Iterator[Case]:
-    def golden_part(name: str, nodes: int):
-        def golden(i: Arrays) -> Arrays:
-            arguments = [i["degree_i"], *(i[f"i{n}_i"] for n in range(1, 5))]
-            value = {
-                "a": lambda: poly.coef_a(*arguments, nodes=nodes, form=FORMS[form]),
-                "b": lambda: poly.coef_b(*arguments, nodes=nodes),
-                "c": lambda: poly.coef_c(*arguments, nodes=nodes, form=FORMS[form]),
-            }[name]()
-            return {f"{name}_o": value}
+    def golden_part(name: str, nodes: int) -> Callable[[Arrays], Arrays]:
+        of = partial(getattr(poly, f"coef_{name}"), nodes=nodes, **({} if name == "b" else {"form": FORMS[form]}))
+        return lambda i: {f"{name}_o": of(i["degree_i"], *(i[f"i{n}_i"] for n in range(1, 5)))}
 
-        return golden
-
-    def golden_all(nodes: int):
-        def golden(i: Arrays) -> Arrays:
-            values = poly.coef(i["degree_i"], *(i[f"i{n}_i"] for n in range(1, 5)), nodes=nodes, form=FORMS[form])
-            return {f"{name}_o": value for name, value in zip("abcd", values, strict=True)}
-
-        return golden
+    def golden_all(nodes: int) -> Callable[[Arrays], Arrays]:
+        of = partial(poly.coef, nodes=nodes, form=FORMS[form])
+        names = [f"{name}_o" for name in "abcd"]
+        return lambda i: dict(zip(names, of(i["degree_i"], *(i[f"i{n}_i"] for n in range(1, 5))), strict=True))
 
     for nodes, width in itertools.product((k.NODES_LEFT, k.NODES_RIGHT), (k.INTENSITY_W, 5)):
         ranges = {"degree_i": (0, 3), **{f"i{n}_i": signed_range(width) for n in range(1, 5)}}

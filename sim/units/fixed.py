@@ -25,42 +25,36 @@ def _steps(form: str) -> Iterator[Case]:
             lambda i, d=drop: {"y_o": np.ldexp(i["x_i"].astype(Real), -d)},
             _ties(ranges, drop) if width > 20 else None, every(ranges) if width <= 20 else None, 0,
         )  # fmt: skip
+    x_i = lambda width: {"x_i": signed_range(width)}  # noqa: E731
     for width, out_w in ((20, 12), (k.VALUE_W, k.PIXEL_W), (9, 4), (3, 1)):
-        ranges = {"x_i": signed_range(width)}
         clamp = lambda i, o=out_w: {"y_o": fixed.saturate(i["x_i"], o)}  # noqa: E731
-        yield Case(
-            "shade_saturate", form, {"WIDTH": width, "OUT_W": out_w}, clamp, clamp, clamp,
-            mixed(ranges, 1 << out_w) if width > 20 else None, every(ranges) if width <= 20 else None, 0, bound=0,
-        )  # fmt: skip
+        yield _whole("shade_saturate", {"WIDTH": width, "OUT_W": out_w}, clamp, x_i(width), 0, 1 << out_w)
     for width, out_w in ((20, 12), (k.DOT_W, k.INTENSITY_W), (9, 4), (3, 2)):
         limit = lambda i, o=out_w: {"y_o": fixed.limit(i["x_i"], o)}  # noqa: E731
-        yield Case(
-            "shade_limit", form, {"WIDTH": width, "OUT_W": out_w}, limit, limit, limit, None,
-            every({"x_i": signed_range(width)}), 0, bound=0,
-        )  # fmt: skip
+        yield _whole("shade_limit", {"WIDTH": width, "OUT_W": out_w}, limit, x_i(width), 0)
     for width, f in ((k.INTENSITY_W, k.INTENSITY_F), (20, 18), (6, 2)):
         clamp = lambda i, f=f: dict(zip(("y_o", "clamped_o"), fixed.clamp(i["x_i"], f), strict=True))  # noqa: E731
-        yield Case(
-            "shade_clamp", form, {"WIDTH": width, "F": f}, clamp, clamp, clamp, None,
-            every({"x_i": signed_range(width)}), 0, bound=0,
-        )  # fmt: skip
+        yield _whole("shade_clamp", {"WIDTH": width, "F": f}, clamp, x_i(width), 0)
+    square = lambda i: {"y_o": fixed.square(i["x_i"])}  # noqa: E731
     for width in (k.INTENSITY_W, 9, 11, 2):
-        square = lambda i: {"y_o": fixed.square(i["x_i"])}  # noqa: E731
-        yield Case(
-            "shade_square", form, {"WIDTH": width}, square, square, square, None, every({"x_i": signed_range(width)}),
-            k.LATENCY_MUL, bound=0, unit_f=0,
-        )  # fmt: skip
+        yield _whole("shade_square", {"WIDTH": width}, square, x_i(width), k.LATENCY_MUL)
+    product = lambda i: {"p_o": fixed.mul(i["a_i"], i["b_i"])}  # noqa: E731
+    cuts = [sign * (1 << bits) - less for bits in (17, 18) for sign in (1, -1) for less in (0, 1)]  # where a is cut
     for a_w, b_w, stages in (
         (30, 18, 2), (18, 18, 2), (30, 18, 3), (35, 18, 0), (18, 18, 0), (10, 10, 2), (20, 2, 2), (19, 2, 2)
     ):  # fmt: skip
         ranges = {"a_i": signed_range(a_w), "b_i": signed_range(b_w)}
-        product = lambda i: {"p_o": fixed.mul(i["a_i"], i["b_i"])}  # noqa: E731
-        small = a_w + b_w <= 22
-        cuts = [sign * (1 << bits) - less for bits in (17, 18) for sign in (1, -1) for less in (0, 1)]  # where a is cut
-        yield Case(
-            "shade_mul", form, {"A_W": a_w, "B_W": b_w, "STAGES": stages}, product, product, product,
-            None if small else mixed(ranges, *cuts), every(ranges) if small else None, stages, bound=0, unit_f=0,
-        )  # fmt: skip
+        yield _whole("shade_mul", {"A_W": a_w, "B_W": b_w, "STAGES": stages}, product, ranges, stages, *cuts)
+
+
+def _whole(
+    module: str, point: dict[str, int], of: Callable[[Arrays], Arrays], ranges: dict[str, tuple[int, int]],
+    latency: int, *more: int,
+) -> Case:  # fmt: skip
+    """A unit that rounds nothing: all inputs there are, of more than 22 bits random ones and the corners."""
+    many = sum((high - low).bit_length() for low, high in ranges.values()) > 22
+    vectors = (mixed(ranges, *more), None) if many else (None, every(ranges))
+    return Case(module, "refined", point, of, of, of, *vectors, latency, bound=0)
 
 
 def _ties(ranges: dict[str, tuple[int, int]], drop: int) -> Callable[[np.random.Generator, int], Arrays]:
@@ -78,17 +72,13 @@ def _delay(form: str) -> Iterator[Case]:
     delays = [(20, 0), (12, 3), (16, 41), (33, 5), (1, 0), (8, 47)]
     rings = [(12, 3), (16, 41), (2, 51), (18, 16), (6, 8), (8, 17), (5, 47), (33, 5), (21, 32)]
     blocks = [(20, 3), (56, 13), (9, 64)]
-    for module, width, depth, more in (
-        *(("shade_delay", *size, {}) for size in delays),
-        *(("shade_ring", *size, {}) for size in rings),
-        *(("shade_ring", *size, {"BLOCK": 1}) for size in blocks),
-    ):
-        same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
-        word = {"d_i": (0, (1 << width) - 1)}
-        yield Case(
-            module, form, {"WIDTH": width, "DEPTH": depth, **more}, same, same, same,
-            mixed(word) if width > 20 else None, every(word) if width <= 20 else None, depth, bound=0, unit_f=0,
-        )  # fmt: skip
+    same = lambda i: {"q_o": i["d_i"]}  # noqa: E731
+    for module, sizes, more in (
+        ("shade_delay", delays, {}), ("shade_ring", rings, {}), ("shade_ring", blocks, {"BLOCK": 1})
+    ):  # fmt: skip
+        for width, depth in sizes:
+            word = {"d_i": (0, (1 << width) - 1)}
+            yield _whole(module, {"WIDTH": width, "DEPTH": depth} | more, same, word, depth)
 
 
 def _third(form: str) -> Iterator[Case]:
@@ -146,8 +136,7 @@ def _root(form: str) -> Iterator[Case]:
         return golden | {"y_o": np.where(i["z_i"] == 0, 0, exact)}
 
     row = lambda i: {"row_o": fixed.rsqrt_rom(i["i_i"])}  # noqa: E731
-    index = every({"i_i": (0, (1 << k.RSQRT_INDEX_W) - 1)})
-    yield Case("shade_rsqrt_rom", form, {}, row, row, row, None, index, 1, bound=0, unit_f=0)
+    yield _whole("shade_rsqrt_rom", {}, row, {"i_i": (0, (1 << k.RSQRT_INDEX_W) - 1)}, 1)
     argument = {"z_i": (0, (1 << k.RSQRT_W) - 1)}
     yield Case(
         "shade_rsqrt", form, {}, rsqrt, root, root, shortened(mixed(argument), k.RSQRT_W), None, k.LATENCY_RSQRT,

@@ -44,14 +44,12 @@ def test_third_of_more_bits() -> None:
         assert abs(Fraction(value, 3) - result) <= Fraction(1, 3)
 
 
+STEPS = (lambda x: fixed.round(x, 2), lambda x: fixed.saturate(x, 8), fixed.third, lambda x: fixed.mul(x, 3))
+
+
 def test_shapes() -> None:
     """Any shape, with broadcasting; Python integers and small types are taken as int64."""
-    for function in (
-        lambda x: fixed.round(x, 2),
-        lambda x: fixed.saturate(x, 8),
-        fixed.third,
-        lambda x: fixed.mul(x, 3),
-    ):
+    for function in STEPS:
         for shape in ((), (0,), (3,), (2, 1, 4)):
             result = function(np.full(shape, 100, np.int8))
             assert result.shape == shape
@@ -63,12 +61,7 @@ def test_shapes() -> None:
 
 @pytest.mark.parametrize("value", [1.0, [0.5], "1", None, 1j, 1 << 64])
 def test_only_integers(value: object) -> None:
-    for function in (
-        lambda x: fixed.round(x, 1),
-        lambda x: fixed.saturate(x, 1),
-        fixed.third,
-        lambda x: fixed.mul(1, x),
-    ):
+    for function in STEPS:
         with pytest.raises(TypeError, match="integers expected"):
             function(value)
 

@@ -88,6 +88,16 @@ def _pairs(rng: np.random.Generator, rows: int) -> Arrays:
     return {name: value for name, value in arcs(rng, rows).items() if name != "c_i"}
 
 
+def _pairs_and_ties(rng: np.random.Generator, rows: int) -> Arrays:
+    """The same; of one in eight the dot product lies within a few steps of a tie."""
+    made = _pairs(rng, rows)
+    low, high = signed_range(k.INTENSITY_W)
+    near = rng.random(rows) < 1 / 8
+    small = {"a_i.z": rng.integers(-16, 17, rows), "a_i.y": rng.integers(low, high, rows)}
+    small |= {"a_i.x": rng.integers(-16, 17, rows), "b_i.x": 1, "b_i.y": 1 << k.INTENSITY_F - 2, "b_i.z": 1}
+    return made | {name: np.where(near, value, made[name]) for name, value in small.items()}
+
+
 def _ends(i: Arrays) -> list[np.ndarray]:
     return [i[part] for part in (*_axes("a_i"), *_axes("b_i"))]
 
@@ -155,7 +165,7 @@ def _vectors(form: str) -> Iterator[Case]:
 
         yield Case(
             "shade_dot3", form, {"OUT_F": out_f}, lambda i, f=out_f: {"d_o": normal.dot3(*_ends(i), f=f)}, dot, dot,
-            _pairs, None, k.LATENCY_DOT3, unit_f=out_f,
+            _pairs_and_ties, None, k.LATENCY_DOT3, unit_f=out_f,
         )  # fmt: skip
 
     factor = (0, (1 << k.INVC_F) - 1)

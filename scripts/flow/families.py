@@ -22,7 +22,7 @@ class Placer:
     program: str
     options: tuple[str, ...]
     device: str
-    files: tuple[str, ...] = ()  # empty files that the options name
+    files: tuple[tuple[str, str], ...] = ()  # files that the options name, and what they hold
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,15 @@ FAMILIES = {
             "nexus",
             ("--device", "LIFCL-40-9BG400C", "--pdc", "pins.pdc", "--freq", "200", "--timing-allow-fail"),
             "LIFCL-40-9",
-            ("pins.pdc",),
+            (
+                (
+                    "pins.pdc",
+                    "".join(
+                        f"ldc_set_location -site {{{site}}} [get_ports {port}]\n"
+                        for port, site in (("clk_i", "L13"), ("chain_i", "G14"), ("chain_o", "G15"))
+                    ),
+                ),
+            ),
         ),
     ),
     "machxo2": Family(
@@ -129,7 +137,7 @@ FAMILIES = {
                 "--timing-allow-fail",
             ),
             "GW2A-18 C8/I7",
-            ("pins.cst",),
+            (("pins.cst", ""),),
         ),
     ),
     "gatemate": Family(

@@ -214,8 +214,8 @@ def place_and_route(folder: Path, seeds: tuple[int, ...] = SEEDS) -> tuple[int, 
 def place(folder: Path, name: str) -> dict[str, float | str | None]:
     """The clock rate in MHz with the first seed, or why there is none."""
     placer = FAMILIES[name].placer
-    for file in placer.files:
-        (folder / file).touch()
+    for file, text in placer.files:
+        (folder / file).write_text(text)
     files = ["--json", "netlist.json", "--report", "report.json", "--seed", str(SEEDS[0])]
     try:
         tools.nextpnr(placer.program, [*placer.options, *files], folder)

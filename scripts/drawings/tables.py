@@ -201,7 +201,7 @@ def families(figures: Figures) -> str:
     rows = []
     for name, each in FAMILIES.items():
         if found := figures["families"].get(name):
-            no = "not tried" if each.placer else "no nextpnr as a wheel"
+            no = "not placed yet" if each.placer else "Yosys alone"
             why = found.get("unplaced", None if found["fmax_mhz"] else no)
             device = each.placer.device if each.placer else None
             rows.append([each.title, device, *(found[key] for key in AREA), fixed(found["fmax_mhz"], 0), why])

@@ -81,7 +81,7 @@ FAMILIES = {
     ),
     "nexus": Family(
         "Lattice CrossLink-NX",
-        "synth_nexus -family lifcl",
+        "synth_nexus -family lifcl -noiopad",
         (
             ("LUT4|INV", LUT, 1),
             ("CCU2", LUT, 2),
@@ -107,15 +107,12 @@ FAMILIES = {
     ),
     "machxo2": Family(
         "Lattice MachXO2",
-        "synth_lattice -family xo2",
+        "synth_lattice -family xo2 -noiopad",
         (*LATTICE, ("CCU2D", LUT, 2), ("DP8KC|PDPW8KC", BRAM, 1)),
-        Placer(
-            "machxo2", ("--device", "LCMXO2-7000HC-6TG144C", "--freq", "100", "--timing-allow-fail"), "LCMXO2-7000HC-6"
-        ),
     ),
     "gowin": Family(
         "Gowin GW2A",
-        "synth_gowin -family gw2a",
+        "synth_gowin -family gw2a -noiopads",
         (
             ("LUT[1-4]|ALU", LUT, 1),
             ("RAM16SDP4", LUT, 6),
@@ -142,7 +139,7 @@ FAMILIES = {
     ),
     "gatemate": Family(
         "Cologne Chip GateMate",
-        "synth_gatemate -luttree -nomx8 -nomx4",
+        "synth_gatemate -luttree -nomx8 -nomx4 -noiopad -noclkbuf",
         (
             ("CC_LUT[1-4]|CC_L2T[4-6]|CC_MX2|CC_ADDF", LUT, 1),
             ("CC_DFF|CC_DLT", FF, 1),

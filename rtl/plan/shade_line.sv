@@ -43,6 +43,7 @@ module shade_line #(
 
   // ---- spans, beside their plans: a plan comes later than its span -------------------------------------------------
   logic take, taken, under_way, job_valid, job_taken, planned, plan_valid, plan_taken, unused_soon, unused_taken;
+  logic open_d, open_q;
   shade_pkg::job_t job, job_next;
   shade_pkg::plan_t plan, plan_next;
   // the planner's own phase: it stays at 0 while no span is under way
@@ -52,12 +53,15 @@ module shade_line #(
   logic [LATENCY-1:0] plans_q;  // spans under way, the latest in bit 0
   assign under_way     = take || plans_q != '0;
   assign planned       = plans_q[LATENCY-1];
+  // open_q: pace_q is 0, known from a register: ready_o leads through the door to the credits in one clock
+  assign open_d        = !under_way || pace_q == shade_pkg::LOG2_W'(PACE - 1);
   always_ff @(posedge clk_i) begin
     plans_q <= LATENCY'({plans_q, take});
-    pace_q  <= !under_way || pace_q == shade_pkg::LOG2_W'(PACE - 1) ? '0 : pace_q + shade_pkg::LOG2_W'(1);
+    pace_q  <= open_d ? '0 : pace_q + shade_pkg::LOG2_W'(1);
+    open_q  <= rst_i || open_d;
     if (rst_i) {plans_q, pace_q} <= '0;
   end
-  assign ready_o       = room_o && pace_q == '0;
+  assign ready_o       = room_o && open_q;
   assign take          = valid_i && ready_o;
   assign job.normal    = span_i.normal;
   assign job.increment = span_i.increment;

@@ -84,14 +84,15 @@ module shade_door #(
 
   // ---- a span waits for a lane -----------------------------------------------------------------------------------
   localparam int LEFT_W = 20;  // pixels inside of a lane: all that its FIFOs of spans and records hold
-  logic full_q, leave;
+  logic full_q, leave, comes;
   logic [LANES-1:0] best, best_q, drawing;  // best: one bit
   logic [LANES-1:0][LEFT_W-1:0] left_q;
   assign valid_o            = full_q ? best_q & ready_i : '0;
   assign leave              = valid_o != '0;
   assign s_axis_span_tready = (!full_q || leave) && !hold_i;
-  // without full_q a beat is taken unless held: no path from ready_i
-  assign busy_o             = full_q || (s_axis_span_tvalid && !hold_i && good) || drawing != '0;
+  // a good span, taken where there is a place for it: told without leave, which comes late from ready_i
+  assign comes              = s_axis_span_tvalid && !hold_i && good;
+  assign busy_o             = full_q || comes || drawing != '0;
   for (genvar i = 0; i < LANES; i++) begin : g_lane
     assign drawing[i] = left_q[i] != '0;
     always_ff @(posedge clk_i) begin
@@ -113,7 +114,7 @@ module shade_door #(
   always_ff @(posedge clk_i) begin
     if (!full_q || leave) begin
       span_o <= span;
-      full_q <= take && good;
+      full_q <= comes;
     end
     best_q <= best;
     if (rst_i) begin

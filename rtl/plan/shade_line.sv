@@ -42,8 +42,7 @@ module shade_line #(
   localparam int LOG2 = shade_pkg::SPAN_FIFO_LOG2;
 
   // ---- spans, beside their plans: a plan comes later than its span -------------------------------------------------
-  logic take, taken, under_way, job_valid, job_taken, planned, plan_valid, plan_taken, unused_soon, unused_taken;
-  logic open_d, open_q;
+  logic take, taken, under_way, job_valid, job_taken, planned, plan_valid, plan_taken, soon, open_d, unused_taken;
   shade_pkg::job_t job, job_next;
   shade_pkg::plan_t plan, plan_next;
   // the planner's own phase: it stays at 0 while no span is under way
@@ -53,21 +52,20 @@ module shade_line #(
   logic [LATENCY-1:0] plans_q;  // spans under way, the latest in bit 0
   assign under_way     = take || plans_q != '0;
   assign planned       = plans_q[LATENCY-1];
-  // open_q: pace_q is 0, known from a register: ready_o leads through the door to the credits in one clock
+  // ready_o = room_o && pace_q == 0, from a register: it leads through the door to the credits in one clock
   assign open_d        = !under_way || pace_q == shade_pkg::LOG2_W'(PACE - 1);
   always_ff @(posedge clk_i) begin
     plans_q <= LATENCY'({plans_q, take});
     pace_q  <= open_d ? '0 : pace_q + shade_pkg::LOG2_W'(1);
-    open_q  <= rst_i || open_d;
+    ready_o <= rst_i || (soon && open_d);
     if (rst_i) {plans_q, pace_q} <= '0;
   end
-  assign ready_o       = room_o && open_q;
   assign take          = valid_i && ready_o;
   assign job.normal    = span_i.normal;
   assign job.increment = span_i.increment;
   assign job.flat      = span_i.flat && draw_i.material.model == shade_pkg::MODEL_W'(shade_pkg::MODEL_LAMBERT);
   assign job.tag       = span_i.tag;
-  shade_credit #(.LOG2(LOG2)) u_room (.clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(room_o), .soon_o(unused_soon));
+  shade_credit #(.LOG2(LOG2)) u_room (.clk_i, .rst_i, .take_i(take), .give_i(taken), .some_o(room_o), .soon_o(soon));
   shade_fifo #(.WIDTH($bits(job)), .LOG2(LOG2), .BLOCK(1)) u_jobs (
     .clk_i, .rst_i, .valid_i(take), .data_i(job), .valid_o(job_valid), .ready_i(job_taken), .data_o(job_next),
     .taken_o(taken)

@@ -4,7 +4,7 @@
 // s_axis_vertex: packet VERTEX, three beats a triangle. surface_o, run_o: see shade_plane; the runs of a surface follow
 // it, line by line, the last one marked. told_o: what is skipped, a bit for a clock each. view_i: settings, to be changed
 // between frames only.
-// A triangle in 14 clocks, a line in one and one a column that an edge moves aside. Six multipliers.
+// A triangle in 24 clocks, a line in one and one a column that an edge moves aside. Six multipliers.
 // Example: golden.raster.scan.
 module shade_scan (
   input  logic                                clk_i,

@@ -18,8 +18,8 @@
 // no more pixels than its polynomial has nodes; in the paper's form, up to 4. The others share nodes with their neighbours.
 // A span passes three places, PACE clocks in each: kappa is quartered, a clock each, until it is at most t3; the records are
 // counted; kappa is quartered to that of the last one. PACE = LOG2_MAX - 1, at least 4: as often as kappa can be quartered.
-// One span in PACE clocks, taken when phase_i is 0; phase_i counts 0 .. PACE - 1. Three multipliers: two of shade_kappa, one of shade_weight.
-// Latency LATENCY_PLANNER = 30 clocks, LOG2_MAX > 5: 3 more for each; plan_o stays for PACE clocks.
+// One span in PACE clocks, taken when phase_i is 0; phase_i counts 0 .. PACE - 1. Three multipliers: two of shade_kappa, one of
+// shade_weight. Latency LATENCY_PLANNER = 30 clocks, LOG2_MAX > 5: 3 more for each; plan_o stays for PACE clocks.
 // Example: 33 pixels, g = (1/128, 0, 0), n = 128: kappa = 4 -> 1 record of 16 pixels, one of 17, both of degree 3.
 // Source: P1, section V (degrees by region), by a measure instead of by hand.
 module shade_planner #(
